@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "common/math/isa.h"
+
+namespace sidelight {
+
+bool machine_has(Isa isa) {
+  switch (isa) {
+    case Isa::scalar: return true;
+    case Isa::avx2: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    case Isa::avx512:
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+             __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+  }
+  return false;
+}
+
+Isa best_isa() {
+  if (machine_has(Isa::avx512)) return Isa::avx512;
+  if (machine_has(Isa::avx2)) return Isa::avx2;
+  return Isa::scalar;
+}
+
+std::string_view isa_name(Isa isa) {
+  switch (isa) {
+    case Isa::avx2: return "avx2";
+    case Isa::avx512: return "avx512";
+    case Isa::scalar: break;
+  }
+  return "scalar";
+}
+
+std::optional<Isa> parse_isa(std::string_view name) {
+  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+    if (name == isa_name(isa)) return isa;
+  return std::nullopt;
+}
+
+}  // namespace sidelight

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Which instruction set the lane kernels run on. Every choice gives the same bytes; only the speed differs.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace sidelight {
+
+enum class Isa { scalar, avx2, avx512 };
+
+bool machine_has(Isa isa);
+// The widest one this machine has.
+Isa best_isa();
+std::string_view isa_name(Isa isa);
+// "scalar", "avx2", "avx512"; anything else is empty.
+std::optional<Isa> parse_isa(std::string_view name);
+
+}  // namespace sidelight

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The account of the difference between the z-buffer's picture and the tracer's: the ledger of DESIGN section 2,
+//   traced = R - S + M + G     (R: z-buffer; S, M, G: the tracer's shadow, reflection and refraction layers),
+// checked per pixel and channel, and a map that names each pixel's main cause.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "common/picture/frame.h"
+#include "common/picture/metrics.h"
+
+namespace sidelight {
+
+struct Cause {
+  std::uint64_t pixels = 0;   // with a non-zero term in any channel; a pixel may count for several causes
+  double energy = 0;          // mean of |term| over all pixels and channels
+};
+
+struct Comparison {
+  int width = 0, height = 0;
+  std::uint64_t covered = 0;                 // pixels with at least one hit sample (in either picture)
+  std::uint64_t visibility_mismatches = 0;   // samples whose object, primitive or depth differ in any bit
+  std::uint64_t unexplained = 0;             // pixels the ledger does not account for
+  double ledger_max_residual = 0;            // max |traced - (R - S + M + G)| / (R + S + M + G); 0/0 = 0
+  Cause shadow, reflection, refraction;
+  Metrics metrics;                           // traced against rastered
+  // First offenders for the message, picture coordinates; -1 if none.
+  int mismatch_x = -1, mismatch_y = -1, unexplained_x = -1, unexplained_y = -1;
+
+  bool agrees() const { return visibility_mismatches == 0 && unexplained == 0; }
+};
+
+// Both frames of one size and sample count, with keep_samples; `traced` with the three ledger layers. `lights` is the
+// number of lights of the scene: a pixel's tolerance is (2 lights + 12) 2^-24 (R + S + M + G), derived in compare.cpp.
+Comparison compare(const Frame& rastered, const Frame& traced, std::size_t lights);
+
+// hue = the cause whose term has the greatest luminance, brightness = |traced - R| (linear; three hues that
+// colour-blind viewers can tell apart). Black where the pictures are equal.
+std::vector<glm::vec3> cause_map(const Frame& rastered, const Frame& traced);
+inline constexpr std::array<const char*, 3> kCauseNames{"shadow", "reflection", "refraction"};
+extern const std::array<glm::vec3, 3> kCauseHues;   // linear RGB, in the order of kCauseNames
+
+// |traced - rastered|, for difference.png.
+std::vector<glm::vec3> absolute_difference(const Frame& rastered, const Frame& traced);
+
+}  // namespace sidelight

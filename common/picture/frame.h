@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// A finished picture with what was asked for beside the colour, and the options that make one. Both renderers
+// return a Frame; image_io writes it, compare reads two of them.
+//
+// Pixels are stored row by row, top row first. Where a picture is cropped the arrays hold the crop only.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/math/isa.h"
+
+namespace sidelight {
+
+// What a renderer can deliver beside the colour. The first six are RGB layers of the ledger (DESIGN: section 2).
+enum class Layer { ambient, diffuse, specular, shadow, reflection, refraction, depth, object, primitive, normal };
+inline constexpr int kRgbLayers = 6;
+inline constexpr int kLayers = 10;
+inline constexpr std::array<std::string_view, kLayers> kLayerNames{
+    "ambient",    "diffuse", "specular", "shadow",    "reflection",
+    "refraction", "depth",   "object",   "primitive", "normal"};
+
+using LayerMask = unsigned;
+constexpr LayerMask layer_bit(Layer layer) { return 1u << static_cast<unsigned>(layer); }
+inline constexpr LayerMask kVisibilityLayers =
+    layer_bit(Layer::depth) | layer_bit(Layer::object) | layer_bit(Layer::primitive) | layer_bit(Layer::normal);
+inline constexpr LayerMask kRasterLayers =
+    kVisibilityLayers | layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
+inline constexpr LayerMask kLedgerLayers =
+    layer_bit(Layer::shadow) | layer_bit(Layer::reflection) | layer_bit(Layer::refraction);
+inline constexpr LayerMask kRaytraceLayers = kRasterLayers | kLedgerLayers;
+
+// Half-open pixel rectangle, y down.
+struct Rect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  bool operator==(const Rect&) const = default;
+};
+
+struct RenderOptions {
+  int threads = 0;                     // 0: all cores
+  Isa isa = best_isa();
+  int tile = 32;                       // edge of a tile in pixels; changes no bit of the picture
+  LayerMask layers = 0;                // which layers to fill
+  bool keep_samples = false;           // fill Frame::sample_primitive and sample_depth
+  Rect crop;                           // empty: the whole picture
+  std::atomic<bool>* cancel = nullptr;            // raised from outside: the renderer throws Interrupted soon after
+  std::function<void(double done)> progress;      // called now and then, from any thread, with done in [0, 1]
+};
+
+struct RayCounts {
+  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+};
+
+// How many edge and side signs each level of exactness decided.
+struct SignCounts {
+  std::uint64_t filtered = 0, in_double = 0, exact = 0;
+};
+
+struct RenderStats {
+  RayCounts rays;
+  SignCounts signs;
+  std::uint64_t self_shadowed = 0;     // light terms dropped because the surface stands in its own light
+  double cut_weight = 0;               // mean over samples of the weights of all rays not sent
+
+  // Adds the counts; cut_weight is left to the caller, who must add in a fixed order.
+  void add_counts(const RenderStats& other);
+};
+
+struct Frame {
+  int full_width = 0, full_height = 0;   // the whole picture
+  Rect window;                           // the part that is stored
+  int n = 1;                             // samples per pixel edge: n x n samples
+
+  std::vector<glm::vec3> color;
+  std::array<std::vector<glm::vec3>, kRgbLayers> rgb;   // empty unless asked for; indexed by Layer
+  // Of sample (n/2, n/2) of each pixel; empty unless asked for.
+  std::vector<float> depth;                    // distance along the viewing direction; 0 on background
+  std::vector<std::uint32_t> object_id;        // 0: background, else 1 + the object's number
+  std::vector<std::uint32_t> primitive_id;     // likewise
+  std::vector<glm::vec3> normal;               // N, unit, world space; 0 on background
+  // Of every sample (keep_samples), n*n a pixel, row by row within the pixel: primitive or kNone, and its depth t.
+  std::vector<std::uint32_t> sample_primitive;
+  std::vector<double> sample_depth;
+
+  RenderStats stats;
+
+  int width() const { return window.width(); }
+  int height() const { return window.height(); }
+  std::size_t pixels() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()); }
+  std::size_t index(int x, int y) const {   // picture coordinates, inside the window
+    return static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(width()) +
+           static_cast<std::size_t>(x - window.x0);
+  }
+  const std::vector<glm::vec3>& layer(Layer l) const { return rgb[static_cast<std::size_t>(l)]; }
+  std::vector<glm::vec3>& layer(Layer l) { return rgb[static_cast<std::size_t>(l)]; }
+};
+
+// A frame with its arrays allocated for `options` (all zero).
+Frame make_frame(int width, int height, int n, const RenderOptions& options);
+
+// The mean of a pixel's samples: summed in double in the order given, divided, rounded once. The one definition,
+// so that equal samples give equal pixels in both renderers.
+class PixelMean {
+ public:
+  void add(const glm::vec3& sample) { sum_ += glm::dvec3(sample); }
+  glm::vec3 mean(int samples) const { return glm::vec3(sum_ / static_cast<double>(samples)); }
+
+ private:
+  glm::dvec3 sum_{0};
+};
+
+// Bytes that rendering needs at this size, both pictures, all layers: what is checked against the machine's memory
+// before anything is allocated.
+std::uint64_t frame_bytes(int width, int height, int n, const RenderOptions& options);
+
+// The first pixel (picture coordinates) with a NaN or infinity in colour or any layer, as text; empty if there is none.
+std::string first_non_finite(const Frame& frame);
+
+}  // namespace sidelight

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The z-buffer: for each object, for each sample it may cover, keep the nearest; then shade what is visible, with
+// the local model only (every light unshadowed). The only public header of this folder.
+#pragma once
+
+#include <memory>
+
+#include "common/picture/frame.h"
+#include "common/scene/camera.h"
+#include "common/scene/scene.h"
+
+namespace sidelight::raster {
+
+class Prepared;   // what depends on the scene only, and so survives a frame
+
+// `scene` must outlive the result. Its time is a renderer's build time.
+std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
+
+// The picture. Layers: kRasterLayers. Throws Interrupted when options.cancel is raised.
+Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
+
+// The lecture's loop, in double, one sample at a time: the text to read first, and the oracle of render().
+Frame render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);
+
+}  // namespace sidelight::raster

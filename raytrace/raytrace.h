@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The recursive ray tracer (Whitted): for each sample, for each object its ray may meet, keep the nearest; then
+// local light with shadows, plus what the mirrored and the refracted ray see. The only public header of this folder.
+#pragma once
+
+#include <memory>
+
+#include "common/picture/frame.h"
+#include "common/scene/camera.h"
+#include "common/scene/scene.h"
+
+namespace sidelight::raytrace {
+
+class Prepared;   // the bounding volume hierarchy and whatever else depends on the scene only
+
+// `scene` must outlive the result. Its time is a renderer's build time.
+std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
+
+// The picture, as scene.trace asks for (depth, cut, switches). Layers: kRaytraceLayers. Throws Interrupted when
+// options.cancel is raised.
+Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
+
+// Brute force in double, as the lecture writes it: the text to read first, and the oracle of render().
+Frame render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);
+
+}  // namespace sidelight::raytrace
