@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// The one SIMD wrapper. Hot code is written once over a lane type F and instantiated for float (the readable twin and
+// the oracle of the others), for double, and for std::experimental::simd of each instruction set; every instance
+// gives the same bits per lane, since all operations used are correctly rounded and none is fused.
+//
+// Why std::experimental::simd (Parallelism TS 2, in libstdc++) rather than Highway: it has ordinary operators, so a
+// kernel reads like its scalar twin and *is* it; the lane type carries its ABI, so instances for several instruction
+// sets live in one program without sharing a symbol (tests/test_arrows.cpp checks that); nothing to install.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <experimental/simd>
+
+namespace sidelight {
+
+namespace stdx = std::experimental;
+
+// Scalar: the element type. Mask: the type of a comparison. kCount: how many.
+template <class F>
+struct LaneTraits {
+  using Scalar = F;
+  using Mask = bool;
+  static constexpr int kCount = 1;
+};
+template <class T, class Abi>
+struct LaneTraits<stdx::simd<T, Abi>> {
+  using Scalar = T;
+  using Mask = stdx::simd_mask<T, Abi>;
+  static constexpr int kCount = static_cast<int>(stdx::simd<T, Abi>::size());
+};
+template <class F>
+using Scalar = typename LaneTraits<F>::Scalar;
+template <class F>
+using Mask = typename LaneTraits<F>::Mask;
+template <class F>
+inline constexpr int kLanes = LaneTraits<F>::kCount;
+
+template <class F>
+F select(const Mask<F>& mask, const F& if_true, const F& if_false) {
+  if constexpr (kLanes<F> == 1) {
+    return mask ? if_true : if_false;
+  } else {
+    F result = if_false;
+    stdx::where(mask, result) = if_true;
+    return result;
+  }
+}
+
+template <class F>
+F load(const Scalar<F>* from) {
+  if constexpr (kLanes<F> == 1)
+    return *from;
+  else
+    return F(from, stdx::element_aligned);
+}
+
+template <class F>
+void store(const F& value, Scalar<F>* to) {
+  if constexpr (kLanes<F> == 1)
+    *to = value;
+  else
+    value.copy_to(to, stdx::element_aligned);
+}
+
+// Lane i holds element(i).
+template <class F, class Element>
+F gather(const Element& element) {
+  if constexpr (kLanes<F> == 1)
+    return element(0);
+  else
+    return F([&](auto lane) { return element(static_cast<int>(lane)); });
+}
+
+template <class F>
+F square_root(const F& x) {
+  using std::sqrt;
+  using stdx::sqrt;
+  return sqrt(x);
+}
+
+// The bits of F as signed integers of its element's size, and back.
+template <class F>
+auto to_bits(const F& x) {
+  using Int = std::conditional_t<sizeof(Scalar<F>) == 4, std::int32_t, std::int64_t>;
+  if constexpr (kLanes<F> == 1)
+    return std::bit_cast<Int>(x);
+  else
+    return std::bit_cast<stdx::rebind_simd_t<Int, F>>(x);
+}
+template <class F, class Bits>
+F from_bits(const Bits& bits) {
+  return std::bit_cast<F>(bits);
+}
+
+// Between integers of F's size and F, lane by lane; to_integer truncates and wants values that fit.
+template <class F, class Bits>
+F to_real(const Bits& i) {
+  if constexpr (kLanes<F> == 1)
+    return static_cast<F>(i);
+  else
+    return stdx::static_simd_cast<F>(i);
+}
+template <class F>
+auto to_integer(const F& x) {
+  using Bits = decltype(to_bits(x));
+  if constexpr (kLanes<F> == 1)
+    return static_cast<Bits>(x);
+  else
+    return stdx::static_simd_cast<Bits>(x);
+}
+
+}  // namespace sidelight

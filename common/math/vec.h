@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Three lanes of numbers, and nothing more: what GLM is for scalars, for lane types (GLM refuses them).
+#pragma once
+
+#include "common/math/lanes.h"
+
+namespace sidelight {
+
+template <class F>
+struct Vec3 {
+  F x{}, y{}, z{};
+
+  friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+  friend Vec3 operator*(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+  friend Vec3 operator*(const F& s, const Vec3& v) { return {s * v.x, s * v.y, s * v.z}; }
+};
+
+template <class F>
+F dot(const Vec3<F>& a, const Vec3<F>& b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+template <class F>
+Vec3<F> select(const Mask<F>& mask, const Vec3<F>& if_true, const Vec3<F>& if_false) {
+  return {select<F>(mask, if_true.x, if_false.x), select<F>(mask, if_true.y, if_false.y),
+          select<F>(mask, if_true.z, if_false.z)};
+}
+
+// Unit length; a zero vector stays zero.
+template <class F>
+Vec3<F> unit(const Vec3<F>& v) {
+  const F length2 = dot(v, v);
+  const Mask<F> zero = length2 == F(0);
+  const F inverse = F(1) / square_root(select<F>(zero, F(1), length2));
+  return select<F>(zero, Vec3<F>{}, inverse * v);
+}
+
+}  // namespace sidelight

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "common/model/shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/model/shading_kernel.h"
+
+namespace sidelight {
+namespace {
+
+Vec3<float> to_float(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+// The greatest coordinate anything in the scene has, near enough; 0 for an empty one.
+double extent(const Scene& scene) {
+  double most = largest(scene.camera.eye);
+  for (const glm::dvec3& p : scene.positions) most = std::max(most, largest(p));
+  for (const Sphere& s : scene.spheres) most = std::max(most, largest(s.center) + s.radius);
+  for (const Plane& p : scene.planes) most = std::max(most, largest(p.point));
+  for (const Light& l : scene.lights) most = std::max(most, largest(l.position));
+  return most;
+}
+
+// v = high + low to 48 bits.
+struct Split {
+  Vec3<float> high, low;
+};
+
+Split split(const glm::dvec3& v) {
+  const Vec3<float> high = to_float(v);
+  return {high, to_float(v - glm::dvec3(high.x, high.y, high.z))};
+}
+
+ShadingLight<float> shading_light(const Light& light, double scale) {
+  ShadingLight<float> out;
+  const auto array = [](const Vec3<float>& v) { return std::array<float, 3>{v.x, v.y, v.z}; };
+  out.intensity = array(to_float(light.intensity));
+  out.directional = light.directional;
+  if (light.directional) {
+    out.high = array(to_float(-light.direction));
+    return out;
+  }
+  const Split position = split(scale * light.position);
+  out.high = array(position.high);
+  out.low = array(position.low);
+  // f(d) of the scaled distance: a power of two, so nothing is rounded
+  out.q0 = static_cast<float>(light.attenuation.q0);
+  out.q1 = static_cast<float>(light.attenuation.q1 / scale);
+  out.q2 = static_cast<float>(light.attenuation.q2 / scale / scale);
+  return out;
+}
+
+void put(ShadingBatch::Rgb& to, std::size_t i, const Vec3<float>& v) {
+  to[0][i] = v.x;
+  to[1][i] = v.y;
+  to[2][i] = v.z;
+}
+
+}  // namespace
+
+ShadingTables make_shading_tables(const Scene& scene) {
+  ShadingTables tables;
+  const double most = extent(scene);
+  tables.length_scale = most > 0 ? std::exp2(-std::ilogb(most)) : 1;
+  tables.ambient_light = to_float(scene.ambient);
+  for (const Material& m : scene.materials)
+    tables.materials.push_back({to_float(m.ambient), to_float(m.diffuse), to_float(m.specular), to_float(m.local),
+                                to_float(m.reflect), to_float(m.refract), static_cast<float>(m.shininess)});
+  for (const Light& light : scene.lights) tables.lights.push_back(shading_light(light, tables.length_scale));
+  return tables;
+}
+
+ShadingPoint<float> shading_point(const ShadingTables& tables, const Surface& surface, const Ray& ray) {
+  const ShadingMaterial& material = tables.materials[surface.material];
+  const Split position = split(tables.length_scale * surface.point);
+  return {position.high,
+          position.low,
+          to_float(surface.normal),
+          to_float(surface.facing),
+          to_float(-glm::normalize(ray.direction)),
+          material.ambient,
+          material.diffuse,
+          material.specular,
+          material.shininess};
+}
+
+void ShadingBatch::add(const ShadingPoint<float>& point, const ShadingMaterial& material) {
+  const auto i = static_cast<std::size_t>(size++);
+  put(high, i, point.high);
+  put(low, i, point.low);
+  put(normal, i, point.normal);
+  put(facing, i, point.facing);
+  put(to_viewer, i, point.to_viewer);
+  put(ambient, i, point.ambient);
+  put(diffuse, i, point.diffuse);
+  put(specular, i, point.specular);
+  put(local, i, material.local);
+  shininess[i] = point.shininess;
+}
+
+void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch) {
+  switch (isa) {
+    case Isa::scalar: return shade_scalar(tables, batch);
+    case Isa::avx2: return shade_avx2(tables, batch);
+    case Isa::avx512: return shade_avx512(tables, batch);
+  }
+}
+
+}  // namespace sidelight

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// From surfaces to light: the scene's materials and lights as the float kernel reads them, and the z-buffer's shading
+// of many visible points at once. phong.h has the model itself; this is where double ends and float begins.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/math/isa.h"
+#include "common/model/phong.h"
+#include "common/model/surface.h"
+#include "common/scene/scene.h"
+
+namespace sidelight {
+
+struct ShadingMaterial {
+  Vec3<float> ambient, diffuse, specular;   // ka, kd, ks
+  Vec3<float> local, reflect, refract;      // c1, c2, c3
+  float shininess = 1;
+};
+
+struct ShadingTables {
+  double length_scale = 1;   // a power of two that brings the scene's extent near 1, so that no square leaves float
+  Vec3<float> ambient_light;
+  std::vector<ShadingMaterial> materials;
+  std::vector<ShadingLight<float>> lights;
+};
+
+ShadingTables make_shading_tables(const Scene& scene);
+
+// The point as the kernel wants it, seen along `ray`.
+ShadingPoint<float> shading_point(const ShadingTables& tables, const Surface& surface, const Ray& ray);
+
+// Up to kCapacity visible points in structure-of-arrays form, and what the local model makes of them.
+struct ShadingBatch {
+  static constexpr int kCapacity = 64;   // a multiple of every lane count
+  using Channel = std::array<float, kCapacity>;
+  using Rgb = std::array<Channel, 3>;
+
+  int size = 0;
+  Rgb high{}, low{}, normal{}, facing{}, to_viewer{}, ambient{}, diffuse{}, specular{}, local{};
+  Channel shininess{};
+  // Results, c1 included: R = local (ka Ia + sum T_i), and its three parts.
+  Rgb unshadowed{}, ambient_layer{}, diffuse_layer{}, specular_layer{};
+
+  bool full() const { return size == kCapacity; }
+  void add(const ShadingPoint<float>& point, const ShadingMaterial& material);
+};
+
+// Fills the results of entries [0, size). The same bytes for every isa. `isa` must be one the machine has.
+void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch);
+
+}  // namespace sidelight

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// shading_kernel.h for eight lanes (compiled with -mavx2).
+#include "common/model/shading_kernel.h"
+
+namespace sidelight {
+
+static_assert(kLanes<stdx::native_simd<float>> == 8);
+
+void shade_avx2(const ShadingTables& tables, ShadingBatch& batch) {
+  shade_batch<stdx::native_simd<float>>(tables, batch);
+}
+
+}  // namespace sidelight

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// shading_kernel.h for sixteen lanes (compiled with -mavx512f and its companions).
+#include "common/model/shading_kernel.h"
+
+namespace sidelight {
+
+static_assert(kLanes<stdx::native_simd<float>> == 16);
+
+void shade_avx512(const ShadingTables& tables, ShadingBatch& batch) {
+  shade_batch<stdx::native_simd<float>>(tables, batch);
+}
+
+}  // namespace sidelight

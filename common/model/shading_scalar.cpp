@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// shading_kernel.h for the readable twin: one lane, and the oracle of the wide ones.
+#include "common/model/shading_kernel.h"
+
+namespace sidelight {
+
+void shade_scalar(const ShadingTables& tables, ShadingBatch& batch) {
+  shade_batch<float>(tables, batch);
+}
+
+}  // namespace sidelight

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The surface at a hit, as the fast renderers use it: where it is, its normals, its material. In double; the local
+// model rounds to float from here (shading.h). The references work this out for themselves.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "common/model/visibility.h"
+#include "common/scene/scene.h"
+
+namespace sidelight {
+
+struct Surface {
+  glm::dvec3 point{0};
+  glm::dvec3 facing{0};        // Nv: the geometric normal, turned against the ray; unit
+  glm::dvec3 normal{0};        // N: the interpolated normal on the side of Nv; Nv where there is none; unit
+  bool entering = false;       // the ray comes from the outward side
+  double clearance = 0;        // see Place
+  double together = 0;
+  std::uint32_t object = 0;
+  std::uint32_t material = 0;
+};
+
+Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts);
+
+}  // namespace sidelight
