@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What the z-buffer keeps of a scene between frames.
+#pragma once
+
+#include "common/model/shading.h"
+#include "raster/raster.h"
+
+namespace sidelight::raster {
+
+class Prepared {
+ public:
+  explicit Prepared(const Scene& s) : scene(s), tables(make_shading_tables(s)) {}
+
+  const Scene& scene;
+  ShadingTables tables;
+};
+
+}  // namespace sidelight::raster

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "raster/tile.h"
+
+namespace sidelight::raster {
+
+DepthTile::DepthTile(const Camera& camera, const Rect& pixels)
+    : camera_(camera),
+      samples_{camera.n * pixels.x0, camera.n * pixels.y0, camera.n * pixels.x1, camera.n * pixels.y1},
+      axis_(camera.axis_part()) {
+  for (int X = samples_.x0; X < samples_.x1; ++X) columns_.push_back(camera.column_part(X));
+  for (int Y = samples_.y0; Y < samples_.y1; ++Y) rows_.push_back(camera.row_part(Y));
+  nearest_.resize(columns_.size() * rows_.size());
+}
+
+void DepthTile::draw(const Scene& scene, std::uint32_t primitive, SignCounts& counts) {
+  const SampleBox box = intersection(box_of_primitive(scene, camera_, primitive), samples_);
+  const PrimitiveRef ref = primitive_ref(scene, primitive);
+  if (ref.kind == ObjectKind::mesh) return draw_triangle(scene, primitive, scene.triangles[ref.index], box, counts);
+
+  // Spheres and planes: solved at each sample they may cover.
+  for (int Y = box.y0; Y < box.y1; ++Y)
+    for (int X = box.x0; X < box.x1; ++X) {
+      const Hit hit = intersect(scene, primitive, {camera_.eye, direction(X, Y)}, kRayStart, counts);
+      if (hit.found()) keep(X, Y, hit);
+    }
+}
+
+void DepthTile::draw_triangle(const Scene& scene, std::uint32_t primitive, const Triangle& triangle,
+                              const SampleBox& box, SignCounts& counts) {
+  const glm::dvec3& v0 = scene.positions[triangle.vertex[0]];
+  const glm::dvec3& v1 = scene.positions[triangle.vertex[1]];
+  const glm::dvec3& v2 = scene.positions[triangle.vertex[2]];
+  const TriangleView view = view_triangle(camera_.eye, v0, v1, v2);
+  const int side = view_side(view, counts);
+  if (side == 0) return;   // seen exactly edge-on
+  const DepthPlane plane = depth_plane(view, v0, v1, v2);
+  for (int Y = box.y0; Y < box.y1; ++Y)
+    for (int X = box.x0; X < box.x1; ++X) {
+      const glm::dvec3 d = direction(X, Y);
+      if (edge_agreement(view, d, counts) == side) keep(X, Y, {triangle_depth(view, plane, d), primitive});
+    }
+}
+
+}  // namespace sidelight::raster

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What the tracer keeps of a scene between frames, and the questions it asks of it.
+#pragma once
+
+#include <vector>
+
+#include "common/model/shading.h"
+#include "common/model/visibility.h"
+#include "raytrace/bvh.h"
+#include "raytrace/raytrace.h"
+
+namespace sidelight::raytrace {
+
+class Prepared {
+ public:
+  explicit Prepared(const Scene& scene);
+
+  const Scene& scene;
+  ShadingTables tables;
+  Bvh bvh;                              // over spheres and triangles
+  std::vector<std::uint32_t> planes;    // primitive numbers: infinite, so met one by one
+  std::vector<std::uint32_t> solids;    // objects that bound a medium; empty where refraction is off
+};
+
+// The nearest hit after `after`; not found() if there is none. The same as nearest_of_all, found faster.
+Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts);
+
+// Whether anything that casts shadows stands between the ray's origin and the light. For a point light the ray's
+// direction is light - origin and the light is at t = 1; for a directional one (light == nullptr) it is infinitely far.
+bool blocked(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts);
+
+// All hits h with h.t in [from.t, last_t] that do not come before `from`, in order.
+std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,
+                              SignCounts& counts);
+
+}  // namespace sidelight::raytrace

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// The ray tracer: pixel order. For each sample its eye ray, and what the recursion brings back along it.
+#include <vector>
+
+#include "common/parallel.h"
+#include "common/picture/pixel.h"
+#include "raytrace/whitted.h"
+
+namespace sidelight::raytrace {
+namespace {
+
+Sample to_sample(const Traced& traced) {
+  Sample sample;
+  sample.color = traced.color;
+  sample[Layer::ambient] = traced.ambient;
+  sample[Layer::diffuse] = traced.diffuse;
+  sample[Layer::specular] = traced.specular;
+  sample[Layer::shadow] = traced.shadow;
+  sample[Layer::reflection] = traced.mirrored;
+  sample[Layer::refraction] = traced.refracted;
+  if (!traced.hit.found()) return sample;
+  sample.object = 1 + traced.object;
+  sample.primitive = 1 + traced.hit.primitive;
+  sample.t = traced.hit.t;
+  sample.normal = traced.normal;
+  return sample;
+}
+
+void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media, int y, Frame& frame,
+               RenderStats& stats) {
+  const int n = camera.n;
+  Whitted whitted(prepared, stats);
+  PixelWriter pixel(frame, camera.depth_scale());
+  for (int x = frame.window.x0; x < frame.window.x1; ++x) {
+    for (int Y = n * y; Y < n * (y + 1); ++Y)
+      for (int X = n * x; X < n * (x + 1); ++X) {
+        ++stats.rays.primary;
+        pixel.add(to_sample(whitted.trace({.ray = {camera.eye, camera.direction(X, Y)}, .media = eye_media})));
+      }
+    pixel.write(x, y);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Prepared> prepare(const Scene& scene, int) { return std::make_shared<const Prepared>(scene); }
+
+Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
+  Frame frame = make_frame(camera.width, camera.height, camera.n, options);
+  const Media eye_media = media_at(prepared, camera.eye);
+  // Statistics by row, so that their sums do not depend on which thread did what.
+  std::vector<RenderStats> stats(static_cast<std::size_t>(frame.height()));
+  std::atomic<int> done{0};
+  parallel_for(frame.height(), options.threads, [&](int row, int) {
+    if (options.cancel && *options.cancel) throw Interrupted();
+    trace_row(prepared, camera, eye_media, frame.window.y0 + row, frame, stats[static_cast<std::size_t>(row)]);
+    if (options.progress) options.progress(static_cast<double>(++done) / frame.height());
+  });
+  for (const RenderStats& s : stats) {
+    frame.stats.add_counts(s);
+    frame.stats.cut_weight += s.cut_weight;
+  }
+  frame.stats.cut_weight /= static_cast<double>(frame.pixels()) * camera.n * camera.n;
+  return frame;
+}
+
+}  // namespace sidelight::raytrace

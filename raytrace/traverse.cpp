@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// The tracer's questions about a scene, answered through the hierarchy. Which surface is met is decided by
+// common/model/visibility.h alone; here only candidates are found.
+#include <algorithm>
+
+#include "raytrace/prepared.h"
+
+namespace sidelight::raytrace {
+namespace {
+
+Box box_of(const Scene& scene, const PrimitiveRef& ref) {
+  Box box;
+  if (ref.kind == ObjectKind::sphere) {
+    const Sphere& sphere = scene.spheres[ref.index];
+    box.grow(sphere.center - sphere.radius);
+    box.grow(sphere.center + sphere.radius);
+  } else {
+    for (const std::uint32_t v : scene.triangles[ref.index].vertex) box.grow(scene.positions[v]);
+  }
+  return box;
+}
+
+bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
+  return scene.materials[primitive_material(scene, primitive)].casts_shadow;
+}
+
+// All primitives that may be met at a depth <= limit: visit(primitive, limit) returns the new limit, negative to stop.
+template <class Visit>
+void candidates(const Prepared& prepared, const Ray& ray, double limit, const Visit& visit) {
+  for (const std::uint32_t primitive : prepared.planes) {
+    limit = visit(primitive, limit);
+    if (limit < 0) return;
+  }
+  traverse(prepared.bvh, ray, limit, visit);
+}
+
+}  // namespace
+
+Prepared::Prepared(const Scene& s) : scene(s), tables(make_shading_tables(s)) {
+  std::vector<Box> boxes;
+  std::vector<std::uint32_t> items;
+  for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
+    const PrimitiveRef ref = primitive_ref(scene, primitive);
+    if (ref.kind == ObjectKind::plane) {
+      planes.push_back(primitive);
+    } else if (ref.kind == ObjectKind::sphere || !scene.triangles[ref.index].degenerate) {
+      boxes.push_back(box_of(scene, ref));
+      items.push_back(primitive);
+    }
+  }
+  bvh = build_bvh(boxes, items);
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
+    if (scene.objects[i].solid && scene.trace.refraction) solids.push_back(i);
+}
+
+Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts) {
+  Hit best;
+  candidates(prepared, ray, best.t, [&](std::uint32_t primitive, double) {
+    const Hit hit = intersect(prepared.scene, primitive, ray, after, counts);
+    if (hit.found() && before(hit, best)) best = hit;
+    return best.t;
+  });
+  return best;
+}
+
+bool blocked(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts) {
+  bool found = false;
+  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
+  candidates(prepared, ray, limit, [&](std::uint32_t primitive, double current) {
+    if (!casts_shadow(prepared.scene, primitive)) return current;
+    const Hit hit = intersect(prepared.scene, primitive, ray, kRayStart, counts);
+    found = hit.found() && (!light || before_light(prepared.scene, hit, ray, *light, counts));
+    return found ? -1 : current;
+  });
+  return found;
+}
+
+std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,
+                              SignCounts& counts) {
+  std::vector<Hit> hits;
+  candidates(prepared, ray, last_t, [&](std::uint32_t primitive, double limit) {
+    Hit hit = intersect(prepared.scene, primitive, ray, kRayStart, counts);
+    while (hit.found() && hit.t <= last_t) {   // a sphere may be met twice
+      if (!before(hit, from)) hits.push_back(hit);
+      hit = intersect(prepared.scene, primitive, ray, hit, counts);
+    }
+    return limit;
+  });
+  std::sort(hits.begin(), hits.end(), before);
+  return hits;
+}
+
+}  // namespace sidelight::raytrace
