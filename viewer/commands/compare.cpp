@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// sidelight compare: both pictures of a scene, the picture of their difference, and the account of it.
+#include "common/picture/compare.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "viewer/commands/commands.h"
+#include "viewer/commands/progress.h"
+#include "viewer/commands/renderers.h"
+#include "viewer/window/offscreen.h"
+
+namespace sidelight {
+namespace {
+
+struct CompareFlags {
+  JobFlags job;
+  std::string folder;
+};
+
+TimedFrame render_quietly(Job& job, const Renderer& renderer) {
+  RenderOptions options = job.options;
+  options.layers = renderer.layers;
+  options.keep_samples = true;
+  ProgressBar bar(std::string(renderer.label), job.flags.quiet);
+  options.progress = bar.callback();
+  TimedFrame timed = renderer.render(job, job.camera, options);
+  if (const std::string fault = first_non_finite(timed.frame); !fault.empty())
+    throw NumericalFault(fmt::format("{}: {}", renderer.label, fault));
+  return timed;
+}
+
+nlohmann::ordered_json cause_json(const Cause& cause) { return {{"pixels", cause.pixels}, {"energy", cause.energy}}; }
+
+nlohmann::ordered_json metrics_json(const Metrics& m) {
+  constexpr std::array<const char*, 3> kChannels{"R", "G", "B"};
+  nlohmann::ordered_json json{{"max",
+                               {{"value", m.max.value},
+                                {"x", m.max.x},
+                                {"y", m.max.y},
+                                {"channel", kChannels[static_cast<std::size_t>(m.max.channel)]}}},
+                              {"mean", m.mean},
+                              {"rms", m.rms}};
+  json["psnr"] = m.psnr ? nlohmann::ordered_json(*m.psnr) : nlohmann::ordered_json(nullptr);
+  return json;
+}
+
+std::string comparison_json(const Job& job, const Comparison& result, const TimedFrame& rastered,
+                            const TimedFrame& traced) {
+  nlohmann::ordered_json json{{"width", result.width},
+                              {"height", result.height},
+                              {"covered", result.covered},
+                              {"visibility_mismatches", result.visibility_mismatches},
+                              {"unexplained", result.unexplained},
+                              {"ledger_max_residual", result.ledger_max_residual},
+                              {"causes",
+                               {{"shadow", cause_json(result.shadow)},
+                                {"reflection", cause_json(result.reflection)},
+                                {"refraction", cause_json(result.refraction)}}},
+                              {"metrics", metrics_json(result.metrics)}};
+  const auto times = [](const TimedFrame& t) {
+    return nlohmann::ordered_json{{"build", t.build_ms}, {"frame", t.frame_ms}};
+  };
+  if (!job.flags.no_times) json["time_ms"] = {{"raster", times(rastered)}, {"raytrace", times(traced)}};
+  json["faults"] = nlohmann::ordered_json::object();
+  return json.dump(2) + "\n";
+}
+
+Image8 picture(const Frame& frame) { return to_image8(frame.color, frame.width(), frame.height()); }
+
+Labels labels(const Job& job, const TimedFrame& rastered, const TimedFrame& traced) {
+  Labels out;
+  out.title = job.scene.title.empty() ? job.flags.scene : job.scene.title;
+  if (!job.flags.no_times) {
+    out.left.times = Times{rastered.build_ms, rastered.frame_ms};
+    out.right.times = Times{traced.build_ms, traced.frame_ms};
+  }
+  return out;
+}
+
+void write_pictures(const Job& job, const std::string& folder, const TimedFrame& rastered, const TimedFrame& traced) {
+  const int width = rastered.frame.width(), height = rastered.frame.height();
+  const Image8 left = picture(rastered.frame), right = picture(traced.frame);
+  const Metadata raster_metadata = job_metadata(job, "raster"), trace_metadata = job_metadata(job, "raytrace");
+  const Metadata both = job_metadata(job, "raster, raytrace");
+  write_png(folder + "/raster.png", left, raster_metadata);
+  write_png(folder + "/raytrace.png", right, trace_metadata);
+  write_png(folder + "/side_by_side.png", side_by_side(left, right, labels(job, rastered, traced)), both);
+  write_png(folder + "/difference.png", to_image8(absolute_difference(rastered.frame, traced.frame), width, height), both);
+  write_png(folder + "/causes.png", to_image8(cause_map(rastered.frame, traced.frame), width, height), both);
+  write_exr(folder + "/raster.exr", rastered.frame, raster_metadata);
+  write_exr(folder + "/raytrace.exr", traced.frame, trace_metadata);
+}
+
+// What a person wants to read first; on stderr, as stdout is for data.
+void print_summary(const Comparison& result, const std::string& folder) {
+  fmt::print(stderr, "{}x{}: {} visibility mismatches, {} unexplained pixels\n", result.width, result.height,
+             result.visibility_mismatches, result.unexplained);
+  const auto line = [](const char* name, const Cause& cause) {
+    fmt::print(stderr, "  {:<10} {:>8} pixels, energy {:.4g}\n", name, cause.pixels, cause.energy);
+  };
+  line("shadow", result.shadow);
+  line("reflection", result.reflection);
+  line("refraction", result.refraction);
+  if (result.visibility_mismatches > 0)
+    fmt::print(stderr, "  first mismatch at pixel {},{}\n", result.mismatch_x, result.mismatch_y);
+  if (result.unexplained > 0)
+    fmt::print(stderr, "  first unexplained pixel at {},{}\n", result.unexplained_x, result.unexplained_y);
+  fmt::print(stderr, "wrote {}/side_by_side.png, causes.png, difference.png, compare.json and more\n", folder);
+}
+
+int run_compare(const CompareFlags& flags) {
+  Job job = load_job(flags.job);
+  const Renderer& raster = *find_renderer("raster");
+  const Renderer& raytrace = *find_renderer("raytrace");
+  job.options.layers = raytrace.layers;
+  job.options.keep_samples = true;
+  check_memory(job);
+  make_folder(flags.folder);
+
+  const TimedFrame rastered = render_quietly(job, raster);
+  const TimedFrame traced = render_quietly(job, raytrace);
+  const Comparison result = compare(rastered.frame, traced.frame, job.scene.lights.size());
+  write_pictures(job, flags.folder, rastered, traced);
+  write_text_file(flags.folder + "/compare.json", comparison_json(job, result, rastered, traced));
+  if (!flags.job.quiet) print_summary(result, printable(flags.folder));
+  return result.agrees() ? 0 : 1;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<CompareFlags>();
+  CLI::App* verb = app.add_subcommand("compare", "both pictures of a scene, their difference, and the reason for it");
+  add_job_flags(*verb, flags->job);
+  verb->add_option("-o,--output", flags->folder, "folder for the pictures and compare.json")->required();
+  verb->add_flag("--no-times", flags->job.no_times, "leave times out, so that equal runs give equal files");
+  verb->footer(
+      "Exit code 1 if any sample or pixel is not accounted for.\n"
+      "Examples:\n"
+      "  sidelight compare scenes/showcase.toml -o out/showcase\n"
+      "  sidelight compare scenes/shadows.toml -o out/shadows -r 320x240 --spp 9");
+  verb->callback([flags, &exit_code] { exit_code = run_compare(*flags); });
+}
+
+}  // namespace sidelight

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/commands/job.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <charconv>
+#include <vector>
+
+#include "common/parallel.h"
+#include "common/scene/toml.h"
+#include "viewer/commands/interrupt.h"
+
+namespace sidelight {
+namespace {
+
+// "640x480" with 'x', "0,0,10,10" with ',': whole numbers and nothing else; empty if the text is not that.
+std::vector<int> numbers(const std::string& text, char separator) {
+  std::vector<int> out;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (;;) {
+    int value = 0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || (next != end && *next != separator)) return {};
+    out.push_back(value);
+    if (next == end) return out;
+    at = next + 1;
+  }
+}
+
+void apply_size(const JobFlags& flags, Scene& scene) {
+  if (flags.size.empty()) return;
+  const std::vector<int> size = numbers(flags.size, 'x');
+  if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > 65535 || size[1] > 65535)
+    throw UsageError("-r wants WxH with sides from 1 to 65535, as in -r 640x480; got '" + flags.size + "'");
+  scene.width = size[0];
+  scene.height = size[1];
+}
+
+Rect parse_crop(const JobFlags& flags, const Scene& scene) {
+  if (flags.crop.empty()) return {};
+  const std::vector<int> c = numbers(flags.crop, ',');
+  const bool inside = c.size() == 4 && 0 <= c[0] && c[0] < c[2] && c[2] <= scene.width && 0 <= c[1] && c[1] < c[3] &&
+                      c[3] <= scene.height;
+  if (!inside)
+    throw UsageError(fmt::format("--crop wants x0,y0,x1,y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}; got '{}'",
+                                 scene.width, scene.height, flags.crop));
+  return {c[0], c[1], c[2], c[3]};
+}
+
+Isa parse_isa_flag(const JobFlags& flags) {
+  if (flags.isa.empty()) return best_isa();
+  const std::optional<Isa> isa = parse_isa(flags.isa);
+  if (!isa) throw UsageError("--isa wants scalar, avx2 or avx512; got '" + flags.isa + "'");
+  if (!machine_has(*isa)) throw UsageError("--isa " + flags.isa + ": this machine does not have it");
+  return *isa;
+}
+
+void apply_trace(const JobFlags& flags, TraceSettings& trace) {
+  if (flags.depth != 0) trace.depth = flags.depth;
+  if (flags.no_shadows || flags.local) trace.shadows = false;
+  if (flags.no_reflection || flags.local) trace.reflection = false;
+  if (flags.no_refraction || flags.local) trace.refraction = false;
+}
+
+}  // namespace
+
+void add_job_flags(CLI::App& verb, JobFlags& flags) {
+  verb.add_option("SCENE", flags.scene, "scene file (TOML)")->required();
+  verb.add_option("-r,--size", flags.size, "picture size WxH, instead of the scene's");
+  verb.add_option("--spp", flags.spp, "samples per pixel, a square number: 1, 4, 9, ...");
+  verb.add_option("--depth", flags.depth, "rays along a path, the eye ray included")->check(CLI::Range(1, 1000));
+  verb.add_option("--crop", flags.crop, "only pixels x0,y0,x1,y1 (half-open, y down)");
+  verb.add_flag("--no-shadows", flags.no_shadows, "every light reaches every surface");
+  verb.add_flag("--no-reflection", flags.no_reflection, "no mirror rays");
+  verb.add_flag("--no-refraction", flags.no_refraction, "no refracted rays");
+  verb.add_flag("--local", flags.local, "all three: local light only, as the z-buffer");
+  verb.add_option("-j", flags.threads, "threads, 0 = all cores")->check(CLI::Range(0, 1024));
+  verb.add_option("--isa", flags.isa, "force scalar, avx2 or avx512 (the picture is the same)");
+  verb.add_flag("-q,--quiet", flags.quiet, "quiet: errors only");
+}
+
+Job load_job(const JobFlags& flags) {
+  Job job;
+  job.flags = flags;
+  job.options.isa = parse_isa_flag(flags);
+  job.options.threads = thread_count(flags.threads);
+  job.options.cancel = &interrupt_flag();
+  const int n = samples_per_edge(flags.spp);
+  if (n == 0 || n > 64)
+    throw UsageError(fmt::format("--spp wants a square number from 1 to 4096 (1, 4, 9, 16, ...); got {}", flags.spp));
+
+  const double start = wall_ms();
+  job.scene = load_scene(flags.scene);
+  job.load_ms = wall_ms() - start;
+  if (!flags.quiet)
+    for (const std::string& warning : job.scene.warnings) fmt::print(stderr, "{}\n", printable(warning, 2000));
+
+  apply_size(flags, job.scene);
+  apply_trace(flags, job.scene.trace);
+  job.options.crop = parse_crop(flags, job.scene);
+  job.camera = make_camera(job.scene.camera, job.scene.width, job.scene.height, n);
+  return job;
+}
+
+void check_memory(const Job& job) {
+  const auto needed =
+      static_cast<double>(frame_bytes(job.scene.width, job.scene.height, job.camera.n, job.options));
+  const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  // Lattice coordinates are ints, with room for 2nW.
+  const bool too_fine = std::max(job.scene.width, job.scene.height) > 500'000'000 / job.camera.n;
+  if (needed > 0.8 * machine || too_fine)
+    throw InputError({job.flags.scene, 0, 0},
+                     fmt::format("a picture of {}x{} with {} samples per pixel needs {:.1f} GB; this machine has {:.1f} GB",
+                                 job.scene.width, job.scene.height, job.flags.spp, needed / 1e9, machine / 1e9));
+}
+
+Metadata job_metadata(const Job& job, const std::string& renderer) {
+  const TraceSettings& trace = job.scene.trace;
+  const auto on = [](bool value) { return std::string(value ? "on" : "off"); };
+  return {{"program", "sidelight " SIDELIGHT_VERSION},
+          {"renderer", renderer},
+          {"scene", printable(job.flags.scene, 1000)},
+          {"scene_hash", job.scene.hash},
+          {"title", printable(job.scene.title, 1000)},
+          {"size", fmt::format("{}x{}", job.scene.width, job.scene.height)},
+          {"samples_per_pixel", std::to_string(job.flags.spp)},
+          {"depth", std::to_string(trace.depth)},
+          {"contribution_cut", fmt::format("{}", trace.contribution_cut)},
+          {"shadows", on(trace.shadows)},
+          {"reflection", on(trace.reflection)},
+          {"refraction", on(trace.refraction)}};
+}
+
+double wall_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double cpu_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+}  // namespace sidelight

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// What every verb shares: the flags that choose scene, size and effort, and turning them into a loaded scene, a camera
+// and render options. One definition of each flag, so that a flag means the same everywhere.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+#include "common/picture/frame.h"
+#include "common/picture/image_io.h"
+#include "common/scene/camera.h"
+#include "common/scene/scene.h"
+
+namespace sidelight {
+
+struct JobFlags {
+  std::string scene;
+  std::string size;        // -r WxH
+  std::string crop;        // --crop x0,y0,x1,y1
+  std::string isa;         // --isa
+  int threads = 0;         // -j
+  int spp = 1;             // --spp
+  int depth = 0;           // --depth; 0: as the scene says
+  bool no_shadows = false, no_reflection = false, no_refraction = false, local = false;
+  bool quiet = false;      // -q
+  bool no_times = false;   // --no-times
+};
+
+// Adds the flags to a verb, with their help texts.
+void add_job_flags(CLI::App& verb, JobFlags& flags);
+
+// A scene ready to be rendered.
+struct Job {
+  JobFlags flags;
+  Scene scene;             // overrides applied
+  Camera camera;
+  RenderOptions options;   // layers and keep_samples are the verb's to set
+  double load_ms = 0;
+};
+
+// Loads and validates. Prints the scene's warnings to stderr unless quiet. Throws InputError, UsageError.
+Job load_job(const JobFlags& flags);
+
+// Refuses, before anything is allocated, what the machine's memory cannot hold: an InputError that names the size.
+// Counts two frames with the job's options: both pictures, or one and its file.
+void check_memory(const Job& job);
+
+// The settings of the job, for a picture's metadata: scene, hash, size, samples, depth, switches, version.
+Metadata job_metadata(const Job& job, const std::string& renderer);
+
+// Milliseconds of wall time, and of processor time of all threads, since some fixed moment.
+double wall_ms();
+double cpu_ms();
+// The greatest resident size so far.
+double peak_memory_mb();
+
+}  // namespace sidelight

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The program: registers the verbs, and turns what goes wrong into one line on stderr and the documented exit code.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "common/error.h"
+#include "viewer/commands/commands.h"
+#include "viewer/commands/interrupt.h"
+#include "viewer/window/window.h"
+
+namespace sidelight {
+namespace {
+
+enum ExitCode { kFine = 0, kUsage = 2, kInput = 3, kNumerical = 5, kNoDisplay = 6, kOutput = 7, kInterrupted = 130 };
+
+int complain(int code, const std::string& message) {
+  fmt::print(stderr, "sidelight: {}\n", message);
+  return code;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("sidelight renders one scene by z-buffer and by ray tracing, and accounts for every difference.",
+               "sidelight");
+  app.set_version_flag("--version", "sidelight " SIDELIGHT_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 fine, 1 the pictures differ beyond what is explained, 2 wrong usage, 3 bad input,\n"
+      "5 numerical fault, 6 no display, 7 output could not be written, 130 interrupted.\n"
+      "sidelight VERB --help shows a verb's flags and examples.");
+  int exit_code = kFine;
+  add_view_command(app, exit_code);
+  add_compare_command(app, exit_code);
+  add_render_command(app, exit_code);
+  add_info_command(app, exit_code);
+
+  try {
+    app.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);   // --help, --version
+    return complain(kUsage, fmt::format("{} (sidelight --help shows how)", printable(error.what())));
+  } catch (const UsageError& error) {
+    return complain(kUsage, printable(error.what(), 2000));
+  } catch (const InputError& error) {
+    return complain(kInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(kInput, "not enough memory for this scene and size");
+  } catch (const NumericalFault& error) {
+    return complain(kNumerical, fmt::format("not a number in the picture: {}", error.what()));
+  } catch (const NoDisplay& error) {
+    return complain(kNoDisplay, error.what());
+  } catch (const OutputError& error) {
+    return complain(kOutput, printable(error.what(), 2000));
+  } catch (const Interrupted& error) {
+    return complain(kInterrupted, error.what());
+  }
+}
+
+}  // namespace
+}  // namespace sidelight
+
+int main(int argc, char** argv) {
+  sidelight::install_signal_handlers();
+  return sidelight::run(argc, argv);
+}

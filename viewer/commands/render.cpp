@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// sidelight render: one picture, its layers, its statistics.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "viewer/commands/commands.h"
+#include "viewer/commands/progress.h"
+#include "viewer/commands/renderers.h"
+
+namespace sidelight {
+namespace {
+
+struct RenderFlags {
+  JobFlags job;
+  std::string output, renderer = "raytrace", layers, stats;
+  bool linear16 = false;
+  int repeat = 0;
+};
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+LayerMask parse_layers(const RenderFlags& flags, const Renderer& renderer) {
+  LayerMask mask = 0;
+  for (std::size_t at = 0; at < flags.layers.size();) {
+    const std::size_t comma = std::min(flags.layers.find(',', at), flags.layers.size());
+    const std::string name = flags.layers.substr(at, comma - at);
+    at = comma + 1;
+    const auto known = std::find(kLayerNames.begin(), kLayerNames.end(), name);
+    if (name == "all") {
+      mask |= renderer.layers;
+    } else if (known != kLayerNames.end()) {
+      mask |= 1u << (known - kLayerNames.begin());
+    } else {
+      throw UsageError(fmt::format("--layers: '{}' is not a layer; there are {} and all", name,
+                                   fmt::join(kLayerNames, ", ")));
+    }
+  }
+  if (mask & ~renderer.layers)
+    throw UsageError(fmt::format("--layers {}: the renderer '{}' does not make all of these", flags.layers, renderer.name));
+  return mask;
+}
+
+nlohmann::ordered_json spread(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  const std::size_t n = times.size();
+  const double median = n % 2 ? times[n / 2] : (times[n / 2 - 1] + times[n / 2]) / 2;
+  return {{"min", times.front()}, {"median", median}, {"max", times.back()}};
+}
+
+std::string stats_json(const Job& job, const Renderer& renderer, const TimedFrame& timed,
+                       const std::vector<double>& frame_ms, const std::vector<double>& cpu) {
+  const RenderStats& stats = timed.frame.stats;
+  nlohmann::ordered_json frame = spread(frame_ms);
+  frame["runs"] = frame_ms.size();
+  const nlohmann::ordered_json json{
+      {"renderer", renderer.name},
+      {"scene", printable(job.flags.scene, 1000)},
+      {"scene_hash", job.scene.hash},
+      {"version", SIDELIGHT_VERSION},
+      {"width", job.scene.width},
+      {"height", job.scene.height},
+      {"spp", job.flags.spp},
+      {"threads", job.options.threads},
+      {"isa", isa_name(job.options.isa)},
+      {"triangles", job.scene.triangles.size()},
+      {"spheres", job.scene.spheres.size()},
+      {"planes", job.scene.planes.size()},
+      {"load_ms", job.load_ms},
+      {"build_ms", timed.build_ms},
+      {"frame_ms", frame},
+      {"cpu_ms", spread(cpu)},
+      {"rays",
+       {{"primary", stats.rays.primary},
+        {"shadow", stats.rays.shadow},
+        {"reflection", stats.rays.reflection},
+        {"refraction", stats.rays.refraction}}},
+      {"exact", {{"filtered", stats.signs.filtered}, {"double", stats.signs.in_double}, {"exact", stats.signs.exact}}},
+      {"self_shadowed", stats.self_shadowed},
+      {"cut_weight", stats.cut_weight},
+      {"peak_memory_mb", peak_memory_mb()}};
+  return json.dump(2) + "\n";
+}
+
+int run_render(const RenderFlags& flags) {
+  const Renderer* renderer = find_renderer(flags.renderer);
+  const bool exr = ends_with(flags.output, ".exr"), png = ends_with(flags.output, ".png");
+  if (!exr && !png) throw UsageError("-o wants a file that ends in .exr or .png; got '" + flags.output + "'");
+  if (!exr && !flags.layers.empty()) throw UsageError("--layers needs an .exr file: a .png holds the colour only");
+  if (!png && flags.linear16) throw UsageError("--linear16 is for .png files; an .exr is linear float already");
+  const LayerMask layers = parse_layers(flags, *renderer);
+
+  Job job = load_job(flags.job);
+  job.options.layers = layers;
+  check_memory(job);
+
+  ProgressBar bar(std::string(renderer->label), flags.job.quiet);
+  job.options.progress = bar.callback();
+  std::vector<double> frame_ms, cpu;
+  TimedFrame timed;
+  if (flags.repeat > 0) {
+    timed = renderer->measure(job, job.options, flags.repeat, frame_ms, cpu);
+  } else {
+    const double cpu_start = cpu_ms();
+    timed = renderer->render(job, job.camera, job.options);
+    frame_ms = {timed.frame_ms};
+    cpu = {cpu_ms() - cpu_start};
+  }
+  if (const std::string fault = first_non_finite(timed.frame); !fault.empty()) throw NumericalFault(fault);
+
+  const Metadata metadata = job_metadata(job, std::string(renderer->name));
+  if (exr)
+    write_exr(flags.output, timed.frame, metadata);
+  else if (flags.linear16)
+    write_png_linear16(flags.output, timed.frame, metadata);
+  else
+    write_png(flags.output, to_image8(timed.frame.color, timed.frame.width(), timed.frame.height()), metadata);
+
+  if (!flags.stats.empty()) {
+    const std::string json = stats_json(job, *renderer, timed, frame_ms, cpu);
+    if (flags.stats == "-")
+      fmt::print("{}", json);
+    else
+      write_text_file(flags.stats, json);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<RenderFlags>();
+  CLI::App* verb = app.add_subcommand("render", "one picture of a scene, by one renderer");
+  add_job_flags(*verb, flags->job);
+  verb->add_option("-o,--output", flags->output, "FILE.png (sRGB, 8 bit) or FILE.exr (linear float)")->required();
+  std::vector<std::string> names;
+  for (const Renderer& r : kRenderers) names.emplace_back(r.name);
+  verb->add_option("--renderer", flags->renderer, fmt::format("{}", fmt::join(names, ", ")))
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  verb->add_option("--layers", flags->layers,
+                   fmt::format("channels beside the colour, comma-separated: {}, all", fmt::join(kLayerNames, ", ")));
+  verb->add_flag("--linear16", flags->linear16, "write the .png linear with 16 bits");
+  verb->add_option("--repeat", flags->repeat, "render N times after a warm-up, the eye moving, for times")
+      ->check(CLI::Range(1, 100000));
+  verb->add_option("--stats", flags->stats, "write times and counts as JSON to FILE, - for standard output");
+  verb->footer(
+      "Examples:\n"
+      "  sidelight render scenes/showcase.toml -o showcase.png\n"
+      "  sidelight render scenes/showcase.toml -o raster.exr --renderer raster --layers depth,object");
+  verb->callback([flags, &exit_code] { exit_code = run_render(*flags); });
+}
+
+}  // namespace sidelight

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/commands/renderers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "raster/raster.h"
+#include "raytrace/raytrace.h"
+
+namespace sidelight {
+namespace {
+
+// How far the eye moves a frame while times are taken: 1e-3 of the scene's size, taken as its distance to what it
+// looks at.
+Camera moved_camera(const Job& job, int frame) {
+  CameraSettings settings = job.scene.camera;
+  const double size = glm::distance(settings.eye, settings.look_at);
+  const glm::dvec3 step = 1e-3 * size * frame * job.camera.right / glm::length(job.camera.right);
+  settings.eye += step;
+  settings.look_at += step;
+  return make_camera(settings, job.camera.width, job.camera.height, job.camera.n);
+}
+
+template <class RenderFrame>
+Frame repeat_frames(const Job& job, int repeat, std::vector<double>& frame_ms, std::vector<double>& cpu,
+                    const RenderFrame& render_frame) {
+  for (int i = 0; i <= repeat; ++i) {   // frame 0 warms up
+    const Camera camera = moved_camera(job, i);
+    const double wall = wall_ms(), processor = cpu_ms();
+    render_frame(camera);
+    if (i == 0) continue;
+    frame_ms.push_back(wall_ms() - wall);
+    cpu.push_back(cpu_ms() - processor);
+  }
+  return render_frame(job.camera);
+}
+
+// A renderer whose scene-only work is kept between frames.
+template <auto prepare, auto render>
+struct Fast {
+  static TimedFrame once(const Job& job, const Camera& camera, const RenderOptions& options) {
+    const double start = wall_ms();
+    const auto prepared = prepare(job.scene, options.threads);
+    const double built = wall_ms();
+    Frame frame = render(*prepared, camera, options);
+    return {std::move(frame), built - start, wall_ms() - built};
+  }
+  static TimedFrame many(const Job& job, const RenderOptions& options, int repeat, std::vector<double>& frame_ms,
+                         std::vector<double>& cpu) {
+    const double start = wall_ms();
+    const auto prepared = prepare(job.scene, options.threads);
+    TimedFrame out;
+    out.build_ms = wall_ms() - start;
+    out.frame = repeat_frames(job, repeat, frame_ms, cpu,
+                              [&](const Camera& camera) { return render(*prepared, camera, options); });
+    return out;
+  }
+};
+
+template <auto render>
+struct Reference {
+  static TimedFrame once(const Job& job, const Camera& camera, const RenderOptions& options) {
+    const double start = wall_ms();
+    Frame frame = render(job.scene, camera, options);
+    return {std::move(frame), 0, wall_ms() - start};
+  }
+  static TimedFrame many(const Job& job, const RenderOptions& options, int repeat, std::vector<double>& frame_ms,
+                         std::vector<double>& cpu) {
+    TimedFrame out;
+    out.frame = repeat_frames(job, repeat, frame_ms, cpu,
+                              [&](const Camera& camera) { return render(job.scene, camera, options); });
+    return out;
+  }
+};
+
+using Raster = Fast<raster::prepare, raster::render>;
+using Raytrace = Fast<raytrace::prepare, raytrace::render>;
+using RasterReference = Reference<raster::render_reference>;
+using RaytraceReference = Reference<raytrace::render_reference>;
+
+}  // namespace
+
+const std::array<Renderer, 4> kRenderers{{
+    {"raster", "z-buffer", kRasterLayers, Raster::once, Raster::many},
+    {"raytrace", "ray tracer", kRaytraceLayers, Raytrace::once, Raytrace::many},
+    {"raster-reference", "z-buffer, reference", kRasterLayers, RasterReference::once, RasterReference::many},
+    {"raytrace-reference", "ray tracer, reference", kRaytraceLayers, RaytraceReference::once, RaytraceReference::many},
+}};
+
+const Renderer* find_renderer(std::string_view name) {
+  const auto at = std::find_if(kRenderers.begin(), kRenderers.end(), [&](const Renderer& r) { return r.name == name; });
+  return at == kRenderers.end() ? nullptr : &*at;
+}
+
+}  // namespace sidelight
