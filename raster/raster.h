@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "common/model/explanation.h"
 #include "common/picture/frame.h"
 #include "common/scene/camera.h"
 #include "common/scene/scene.h"
@@ -18,6 +19,10 @@ std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
 
 // The picture. Layers: kRasterLayers. Throws Interrupted when options.cancel is raised.
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
+
+// What competed for the sample at lattice position (X, Y) and how the winner was lit, told by the code that render()
+// runs: its colour is that sample's, bit for bit.
+RasterRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y);
 
 // The lecture's loop, in double, one sample at a time: the text to read first, and the oracle of render().
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);

@@ -3,16 +3,19 @@
 
 namespace sidelight::raster {
 
-DepthTile::DepthTile(const Camera& camera, const Rect& pixels)
+template <class Recorder>
+DepthTile<Recorder>::DepthTile(const Camera& camera, const Rect& pixels, Recorder& recorder)
     : camera_(camera),
       samples_{camera.n * pixels.x0, camera.n * pixels.y0, camera.n * pixels.x1, camera.n * pixels.y1},
-      axis_(camera.axis_part()) {
+      axis_(camera.axis_part()),
+      recorder_(recorder) {
   for (int X = samples_.x0; X < samples_.x1; ++X) columns_.push_back(camera.column_part(X));
   for (int Y = samples_.y0; Y < samples_.y1; ++Y) rows_.push_back(camera.row_part(Y));
   nearest_.resize(columns_.size() * rows_.size());
 }
 
-void DepthTile::draw(const Scene& scene, std::uint32_t primitive, SignCounts& counts) {
+template <class Recorder>
+void DepthTile<Recorder>::draw(const Scene& scene, std::uint32_t primitive, SignCounts& counts) {
   const SampleBox box = intersection(box_of_primitive(scene, camera_, primitive), samples_);
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   if (ref.kind == ObjectKind::mesh) return draw_triangle(scene, primitive, scene.triangles[ref.index], box, counts);
@@ -25,8 +28,9 @@ void DepthTile::draw(const Scene& scene, std::uint32_t primitive, SignCounts& co
     }
 }
 
-void DepthTile::draw_triangle(const Scene& scene, std::uint32_t primitive, const Triangle& triangle,
-                              const SampleBox& box, SignCounts& counts) {
+template <class Recorder>
+void DepthTile<Recorder>::draw_triangle(const Scene& scene, std::uint32_t primitive, const Triangle& triangle,
+                                        const SampleBox& box, SignCounts& counts) {
   const glm::dvec3& v0 = scene.positions[triangle.vertex[0]];
   const glm::dvec3& v1 = scene.positions[triangle.vertex[1]];
   const glm::dvec3& v2 = scene.positions[triangle.vertex[2]];
@@ -40,5 +44,8 @@ void DepthTile::draw_triangle(const Scene& scene, std::uint32_t primitive, const
       if (edge_agreement(view, d, counts) == side) keep(X, Y, {triangle_depth(view, plane, d), primitive});
     }
 }
+
+template class DepthTile<NoFragments>;
+template class DepthTile<FragmentsOfSample>;
 
 }  // namespace sidelight::raster

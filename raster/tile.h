@@ -4,16 +4,31 @@
 
 #include <vector>
 
+#include "common/model/explanation.h"
 #include "common/model/visibility.h"
 #include "common/scene/camera.h"
 #include "raster/setup.h"
 
 namespace sidelight::raster {
 
+// Hears of every fragment that competes for a sample: nothing, in a picture; one sample's, for an explanation.
+struct NoFragments {
+  void fragment(int, int, const Hit&, bool) {}
+};
+struct FragmentsOfSample {
+  int X = 0, Y = 0;
+  std::vector<FragmentRecord> fragments{};
+
+  void fragment(int x, int y, const Hit& hit, bool kept) {
+    if (x == X && y == Y) fragments.push_back({hit, kept});
+  }
+};
+
+template <class Recorder>
 class DepthTile {
  public:
   // An empty z-buffer for the samples of `pixels`.
-  DepthTile(const Camera& camera, const Rect& pixels);
+  DepthTile(const Camera& camera, const Rect& pixels, Recorder& recorder);
 
   // Keeps the primitive wherever it is nearer than what the samples hold.
   void draw(const Scene& scene, std::uint32_t primitive, SignCounts& counts);
@@ -31,7 +46,9 @@ class DepthTile {
   }
   void keep(int X, int Y, const Hit& hit) {
     Hit& nearest = nearest_[index(X, Y)];
-    if (before(hit, nearest)) nearest = hit;
+    const bool kept = before(hit, nearest);
+    if (kept) nearest = hit;
+    recorder_.fragment(X, Y, hit, kept);
   }
   void draw_triangle(const Scene& scene, std::uint32_t primitive, const Triangle& triangle, const SampleBox& box,
                      SignCounts& counts);
@@ -41,6 +58,10 @@ class DepthTile {
   std::vector<glm::dvec3> columns_, rows_;   // the summands of Camera::direction
   glm::dvec3 axis_;
   std::vector<Hit> nearest_;
+  Recorder& recorder_;
 };
+
+extern template class DepthTile<NoFragments>;
+extern template class DepthTile<FragmentsOfSample>;
 
 }  // namespace sidelight::raster

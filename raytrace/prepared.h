@@ -25,9 +25,10 @@ class Prepared {
 // The nearest hit after `after`; not found() if there is none. The same as nearest_of_all, found faster.
 Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts);
 
-// Whether anything that casts shadows stands between the ray's origin and the light. For a point light the ray's
-// direction is light - origin and the light is at t = 1; for a directional one (light == nullptr) it is infinitely far.
-bool blocked(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts);
+// Something that casts shadows and stands between the ray's origin and the light; not found() if nothing does. For a
+// point light the ray's direction is light - origin and the light is at t = 1; for a directional one (light ==
+// nullptr) it is infinitely far. Of several blockers any one is returned, the same one each time.
+Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts);
 
 // All hits h with h.t in [from.t, last_t] that do not come before `from`, in order.
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "common/model/explanation.h"
 #include "common/picture/frame.h"
 #include "common/scene/camera.h"
 #include "common/scene/scene.h"
@@ -19,6 +20,10 @@ std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
 // The picture, as scene.trace asks for (depth, cut, switches). Layers: kRaytraceLayers. Throws Interrupted when
 // options.cancel is raised.
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
+
+// The tree of rays behind the sample at lattice position (X, Y), told by the code that render() runs: its root's colour
+// is that sample's, bit for bit.
+RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y);
 
 // Brute force in double, as the lecture writes it: the text to read first, and the oracle of render().
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);

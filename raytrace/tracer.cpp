@@ -26,16 +26,24 @@ Sample to_sample(const Traced& traced) {
   return sample;
 }
 
+Path eye_path(const Camera& camera, const Media& eye_media, int X, int Y) {
+  Path path;
+  path.ray = {camera.eye, camera.direction(X, Y)};
+  path.media = eye_media;
+  return path;
+}
+
 void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media, int y, Frame& frame,
                RenderStats& stats) {
   const int n = camera.n;
-  Whitted whitted(prepared, stats);
+  NoRecorder nothing;
+  Whitted whitted(prepared, stats, nothing);
   PixelWriter pixel(frame, camera.depth_scale());
   for (int x = frame.window.x0; x < frame.window.x1; ++x) {
     for (int Y = n * y; Y < n * (y + 1); ++Y)
       for (int X = n * x; X < n * (x + 1); ++X) {
         ++stats.rays.primary;
-        pixel.add(to_sample(whitted.trace({.ray = {camera.eye, camera.direction(X, Y)}, .media = eye_media})));
+        pixel.add(to_sample(whitted.trace(eye_path(camera, eye_media, X, Y))));
       }
     pixel.write(x, y);
   }
@@ -62,6 +70,14 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
   }
   frame.stats.cut_weight /= static_cast<double>(frame.pixels()) * camera.n * camera.n;
   return frame;
+}
+
+RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y) {
+  RenderStats stats;
+  TreeRecorder recorder;
+  Whitted whitted(prepared, stats, recorder);
+  whitted.trace(eye_path(camera, media_at(prepared, camera.eye), X, Y));
+  return recorder.root();
 }
 
 }  // namespace sidelight::raytrace

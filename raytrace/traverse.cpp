@@ -63,14 +63,15 @@ Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCoun
   return best;
 }
 
-bool blocked(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts) {
-  bool found = false;
+Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts) {
+  Hit found;
   const double limit = light ? 1 : std::numeric_limits<double>::infinity();
   candidates(prepared, ray, limit, [&](std::uint32_t primitive, double current) {
     if (!casts_shadow(prepared.scene, primitive)) return current;
     const Hit hit = intersect(prepared.scene, primitive, ray, kRayStart, counts);
-    found = hit.found() && (!light || before_light(prepared.scene, hit, ray, *light, counts));
-    return found ? -1 : current;
+    if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return current;
+    found = hit;
+    return -1.0;
   });
   return found;
 }

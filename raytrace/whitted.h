@@ -6,22 +6,14 @@
 #include <glm/vec3.hpp>
 
 #include "common/picture/frame.h"
-#include "raytrace/media.h"
+#include "raytrace/path.h"
 #include "raytrace/prepared.h"
+#include "raytrace/recorder.h"
 
 namespace sidelight::raytrace {
 
-// A ray on its way, with what the recursion needs to know about its past.
-struct Path {
-  Ray ray;
-  Hit start = kRayStart;   // hits up to here lie behind it already
-  Media media;             // where it travels
-  int depth = 1;           // rays along the path, this one included
-  double weight = 1;       // product of the largest channels of c2, c3 along the path
-};
-
-// What a ray brings back: color = (unshadowed - shadow) + mirrored + refracted, up to rounding; the terms of DESIGN
-// section 2 for an eye ray. The first three parts of `unshadowed` are its ambient, diffuse and specular light.
+// What a ray brings back: color = c1 local + mirrored + refracted. For an eye ray the parts are the terms of the
+// ledger: ambient + diffuse + specular is local light with every light seen, and shadow what is missing from it.
 struct Traced {
   glm::vec3 color{0};
   glm::vec3 ambient{0}, diffuse{0}, specular{0};
@@ -31,21 +23,28 @@ struct Traced {
   glm::vec3 normal{0};
 };
 
+// Recorder: NoRecorder or TreeRecorder (recorder.h).
+template <class Recorder>
 class Whitted {
  public:
-  Whitted(const Prepared& prepared, RenderStats& stats) : prepared_(prepared), scene_(prepared.scene), stats_(stats) {}
+  Whitted(const Prepared& prepared, RenderStats& stats, Recorder& recorder)
+      : prepared_(prepared), scene_(prepared.scene), stats_(stats), recorder_(recorder) {}
 
   Traced trace(const Path& path);
 
  private:
   void add_local(const Surface& surface, const Ray& ray, Traced& out);
-  bool lit(const Surface& surface, const Light& light);
+  Hit shadow_blocker(const Surface& surface, const Light& light);
   void add_secondary(const Path& path, const Surface& surface, Traced& out);
-  glm::vec3 follow(Path path, const glm::dvec3& c, std::uint64_t& counter);
+  glm::vec3 follow(Path path, const glm::dvec3& c);
 
   const Prepared& prepared_;
   const Scene& scene_;
   RenderStats& stats_;
+  Recorder& recorder_;
 };
+
+extern template class Whitted<NoRecorder>;
+extern template class Whitted<TreeRecorder>;
 
 }  // namespace sidelight::raytrace

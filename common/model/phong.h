@@ -44,6 +44,7 @@ struct ShadingPoint {
 template <class F>
 struct LightTerm {
   Vec3<F> diffuse, specular;
+  F cosine, highlight, arriving;   // N.L, max(0, Rl.V)^s and f(d), for explanations
   Mask<F> lit;             // N.L > 0 and d > 0; the term is zero elsewhere
   Mask<F> self_shadowed;   // lit, but Nv.L <= 0: the surface stands in its own light
 
@@ -89,6 +90,9 @@ LightTerm<F> light_term(const ShadingPoint<F>& point, const ShadingLight<Scalar<
   const F highlight = specular_power<F>(mirrored, point.to_viewer, point.shininess);
 
   LightTerm<F> term;
+  term.cosine = cosine;
+  term.highlight = highlight;
+  term.arriving = arriving;
   term.lit = apart && cosine > F(0);
   term.self_shadowed = term.lit && dot(point.facing, to_light) <= F(0);
   const Vec3<F> light_here = arriving * wide(light.intensity);

@@ -103,7 +103,8 @@ struct Frame {
   std::vector<glm::vec3>& layer(Layer l) { return rgb[static_cast<std::size_t>(l)]; }
 };
 
-// A frame with its arrays allocated for `options` (all zero).
+// A frame with its arrays allocated for `options` (all zero). Sizes and n are positive; the crop, if there is
+// one, lies inside the picture.
 Frame make_frame(int width, int height, int n, const RenderOptions& options);
 
 // The mean of a pixel's samples: summed in double in the order given, divided, rounded once. The one definition,
@@ -117,11 +118,13 @@ class PixelMean {
   glm::dvec3 sum_{0};
 };
 
-// Bytes that rendering needs at this size, both pictures, all layers: what is checked against the machine's memory
-// before anything is allocated.
+// Bytes of two frames made with these arguments (both pictures; or one and its file, which is encoded in
+// memory): what is checked against the machine's memory before anything is allocated. Right at any size; what
+// would not fit 64 bits gives the greatest number.
 std::uint64_t frame_bytes(int width, int height, int n, const RenderOptions& options);
 
-// The first pixel (picture coordinates) with a NaN or infinity in colour or any layer, as text; empty if there is none.
+// The first pixel (row by row, picture coordinates) with a NaN or infinity in colour, any layer or the depth of
+// a sample that hit, as text: "colour at pixel (12, 40)". Empty if there is none.
 std::string first_non_finite(const Frame& frame);
 
 }  // namespace sidelight

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "common/model/explanation.h"
+
+namespace sidelight {
+
+LightRecord record_light(std::size_t light, const LightTerm<float>& term) {
+  LightRecord record;
+  record.light = light;
+  record.cosine = term.cosine;
+  record.highlight = term.highlight;
+  record.arriving = term.arriving;
+  record.diffuse = {term.diffuse.x, term.diffuse.y, term.diffuse.z};
+  record.specular = {term.specular.x, term.specular.y, term.specular.z};
+  return record;
+}
+
+LocalRecord record_local(const Scene& scene, const ShadingTables& tables, const Ray& ray, const Hit& hit,
+                         SignCounts& counts) {
+  LocalRecord record;
+  record.hit = hit;
+  record.surface = surface_at(scene, ray, hit, counts);
+  const ShadingPoint<float> point = shading_point(tables, record.surface, ray);
+  const Vec3<float>& c1 = tables.materials[record.surface.material].local;
+  const Vec3<float> ambient = ambient_term<float>(point, tables.ambient_light);
+  record.local = {c1.x, c1.y, c1.z};
+  record.ambient = {ambient.x, ambient.y, ambient.z};
+  for (std::size_t i = 0; i < tables.lights.size(); ++i) {
+    const LightTerm<float> term = light_term<float>(point, tables.lights[i]);
+    if (term.lit) record.lights.push_back(record_light(i, term));
+  }
+  return record;
+}
+
+}  // namespace sidelight

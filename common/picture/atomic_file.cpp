@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "common/picture/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "common/error.h"
+
+namespace sidelight {
+namespace {
+
+namespace fs = std::filesystem;
+
+// An open file, and the name to remove unless it is renamed. Functions return 0 or an errno.
+class OutputFile {
+ public:
+  OutputFile(int descriptor, std::string temporary)
+      : descriptor_(descriptor), temporary_(std::move(temporary)) {}
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile() {
+    close();
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  }
+
+  int write(std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return errno;
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return 0;
+  }
+  int close() {
+    if (descriptor_ < 0) return 0;
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    return ::close(descriptor) == 0 ? 0 : errno;  // some file systems report a full disk only here
+  }
+  int rename_to(const std::string& final_name) {
+    if (std::rename(temporary_.c_str(), final_name.c_str()) != 0) return errno;
+    temporary_.clear();
+    return 0;
+  }
+
+ private:
+  int descriptor_;
+  std::string temporary_;  // empty: nothing to remove
+};
+
+// A name in the same folder (a rename must not cross file systems) that no other process or thread uses, and
+// short, so that it fits wherever the final name does.
+std::string temporary_beside(const fs::path& path) {
+  static std::atomic<unsigned> count{0};
+  const std::string name =
+      ".sidelight-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp";
+  return (path.parent_path() / name).string();
+}
+
+int write_beside_and_rename(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  std::string temporary;
+  int descriptor = -1;
+  do {  // a name may be taken by what an earlier process of our number left when it was killed
+    temporary = temporary_beside(path);
+    descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor < 0 && errno == EEXIST);
+  if (descriptor < 0) return errno;
+
+  OutputFile file(descriptor, temporary);
+  if (const int error = file.write(bytes)) return error;
+  if (const int error = file.close()) return error;
+  return file.rename_to(path.string());
+}
+
+int write_directly(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) return errno;
+  OutputFile file(descriptor, {});
+  if (const int error = file.write(bytes)) return error;
+  return file.close();
+}
+
+int write_whole(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  if (!path.has_filename()) return path.empty() ? ENOENT : EISDIR;
+  std::error_code ignored;  // what cannot be looked at shows when the temporary is opened
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) return EISDIR;
+  if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(path, bytes);
+  // Through a link, so that the link stays one.
+  const fs::path target = fs::exists(status) ? fs::canonical(path, ignored) : path;
+  return write_beside_and_rename(target.empty() ? path : target, bytes);
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+  if (const int error = write_whole(path, bytes)) {
+    throw OutputError(printable(path, 1000) + ": cannot write: " + std::generic_category().message(error));
+  }
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (!error && !fs::is_directory(path, error) && !error)
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error) throw OutputError(printable(path, 1000) + ": cannot make the folder: " + error.message());
+}
+
+}  // namespace sidelight

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#include "common/scene/toml.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/trigonometric.hpp>
+#include <tuple>
+
+#include "common/scene/build.h"
+#include "common/scene/step_modes.h"
+#include "common/scene/toml_objects.h"
+#include "common/scene/toml_set.h"
+#include "common/scene/toml_source.h"
+#include "common/scene/toml_values.h"
+#include "common/scene/unit_vector.h"
+
+namespace sidelight {
+namespace scene_file {
+namespace {
+
+constexpr int kMaxDepth = 1000, kMaxPictureEdge = 65535;
+constexpr std::size_t kMaxSteps = 100;  // each is checked by reading the scene once more
+constexpr Range kFieldOfView{1e-28, 179.999999999999, "an angle in degrees above 0 and below 180"};
+constexpr Range kShininess{0, 1e6, "a number from 0 to 1e6"};
+constexpr Range kIor{0.25, 4, "a number from 0.25 to 4"};
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+// --- Settings of the scene ---------------------------------------------------------------------------------------
+
+void read_picture(const Value& value, Scene& scene) {
+  const TableReader table(value.document, read_table(value), "[picture]",
+                          {.required = {}, .optional = {"size"}});
+  const auto size = table.find("size");
+  if (!size) return;
+  const toml::array& edges = read_array(*size, 2, "[width, height]");
+  scene.width = read_integer(size->element(edges[0]), 1, kMaxPictureEdge);
+  scene.height = read_integer(size->element(edges[1]), 1, kMaxPictureEdge);
+}
+
+void read_camera(const Value& value, CameraSettings& camera) {
+  constexpr std::array<std::string_view, 2> kHeights = {"vertical_fov", "view_height"};
+  const TableReader table(
+      value.document, read_table(value), "[camera]",
+      {.required = {"eye", "look_at"}, .optional = {"up", "vertical_fov", "view_height"}});
+  camera.eye = read_position(table["eye"]);
+  camera.look_at = read_position(table["look_at"]);
+  if (camera.eye == camera.look_at) table["look_at"].fail("a point other than the eye");
+  if (const auto up = table.find("up")) camera.up = read_direction(*up);
+  if (table.only_one_of(kHeights) == "view_height")
+    camera.view_height = read_number(table["view_height"], kLength);
+  else
+    camera.view_height = 2 * std::tan(glm::radians(read_number(table["vertical_fov"], kFieldOfView)) / 2);
+}
+
+void read_trace(const Value& value, TraceSettings& trace) {
+  const TableReader table(value.document, read_table(value), "[trace]",
+                          {.required = {},
+                           .optional = {"depth", "contribution_cut", "secondary_attenuation", "shadows",
+                                        "reflection", "refraction"}});
+  if (const auto v = table.find("depth")) trace.depth = read_integer(*v, 1, kMaxDepth);
+  if (const auto v = table.find("contribution_cut")) trace.contribution_cut = read_number(*v, kFraction);
+  if (const auto v = table.find("secondary_attenuation")) trace.secondary_attenuation = read_attenuation(*v);
+  if (const auto v = table.find("shadows")) trace.shadows = read_flag(*v);
+  if (const auto v = table.find("reflection")) trace.reflection = read_flag(*v);
+  if (const auto v = table.find("refraction")) trace.refraction = read_flag(*v);
+}
+
+// --- Lights and materials ----------------------------------------------------------------------------------------
+
+Light read_light(const Document& document, const toml::table& source) {
+  constexpr std::array<std::string_view, 2> kPlaces = {"position", "direction"};
+  const TableReader table(document, source, "[[light]]",
+                          {.required = {"intensity"}, .optional = {"position", "direction", "attenuation"}});
+  Light light;
+  light.directional = table.only_one_of(kPlaces) == "direction";
+  if (light.directional)
+    light.direction = unit_or_zero(read_direction(table["direction"]));
+  else
+    light.position = read_position(table["position"]);
+  light.intensity = read_color(table["intensity"]);
+  if (const auto attenuation = table.find("attenuation")) {
+    if (light.directional) attenuation->fail("none: light from a direction has no distance to fall off with");
+    light.attenuation = read_attenuation(*attenuation);
+  }
+  return light;
+}
+
+Material read_material(const Value& value) {
+  const TableReader table(value.document, read_table(value),
+                          "[material." + printable(std::string(value.name), 60) + "]",
+                          {.required = {},
+                           .optional = {"ambient", "diffuse", "specular", "shininess", "local", "reflect",
+                                        "refract", "ior", "casts_shadow"}});
+  Material material;
+  material.name = value.name;
+  if (const auto v = table.find("ambient")) material.ambient = read_color(*v);
+  if (const auto v = table.find("diffuse")) material.diffuse = read_color(*v);
+  if (const auto v = table.find("specular")) material.specular = read_color(*v);
+  if (const auto v = table.find("shininess")) material.shininess = read_number(*v, kShininess);
+  if (const auto v = table.find("local")) material.local = read_color(*v);
+  if (const auto v = table.find("reflect")) material.reflect = read_color(*v);
+  if (const auto v = table.find("refract")) material.refract = read_color(*v);
+  if (const auto v = table.find("ior")) material.ior = read_number(*v, kIor);
+  if (const auto v = table.find("casts_shadow")) material.casts_shadow = read_flag(*v);
+  return material;
+}
+
+// Into the scene in the order of the file, and their numbers by name.
+MaterialNames read_materials(const Value& value, Scene& scene) {
+  std::vector<Value> entries;
+  for (const auto& [name, node] : read_table(value)) entries.push_back({value.document, node, name.str()});
+  std::ranges::stable_sort(entries, {}, [](const Value& entry) {
+    const SourceLocation where = entry.where();
+    return std::tuple(where.line, where.column);
+  });
+  MaterialNames names;
+  for (const Value& entry : entries) names.emplace(entry.name, add_material(scene, read_material(entry)));
+  return names;
+}
+
+// --- Objects -----------------------------------------------------------------------------------------------------
+
+// One table of an object, before it is read.
+struct ObjectEntry {
+  std::string_view kind;  // "sphere"
+  std::size_t element;    // among those of its kind
+  SourceLocation where;
+  const toml::table* table;
+  void (*read)(ObjectSink&, const toml::table&);
+};
+
+struct ObjectReader {
+  std::string_view kind;
+  void (*read)(ObjectSink&, const toml::table&);
+};
+
+constexpr std::array<ObjectReader, 3> kObjectReaders = {
+    {{"sphere", read_sphere}, {"plane", read_plane}, {"mesh", read_mesh}}};
+
+// Which objects to read.
+using ObjectFilter = std::function<bool(const ObjectEntry&)>;
+
+// In the order in which the file begins them, whatever their kind: the order of their numbers.
+std::vector<ObjectEntry> object_entries(const TableReader& root, const ObjectFilter& wanted) {
+  std::vector<ObjectEntry> entries;
+  for (const ObjectReader& reader : kObjectReaders) {
+    const auto value = root.find(reader.kind);
+    if (!value) continue;
+    std::size_t element = 0;
+    for (const toml::table* table : read_tables(*value)) {
+      const ObjectEntry entry{reader.kind, element++, root.document().where(*table), table, reader.read};
+      if (wanted(entry)) entries.push_back(entry);
+    }
+  }
+  std::ranges::stable_sort(
+      entries, {}, [](const ObjectEntry& entry) { return std::tuple(entry.where.line, entry.where.column); });
+  return entries;
+}
+
+// --- The whole file ----------------------------------------------------------------------------------------------
+
+// All of a scene but its steps and hash; `files_read` receives the mesh files.
+Scene read_scene(const Document& document, const toml::table& source, const ObjectFilter& wanted,
+                 std::vector<std::string>& files_read) {
+  const TableReader root(document, source, "the scene",
+                         {.required = {"camera"},
+                          .optional = {"title", "lesson", "background", "ambient", "picture", "trace",
+                                       "light", "material", "sphere", "plane", "mesh", "step"}});
+  Scene scene;
+  scene.file = document.path;
+  if (const auto v = root.find("title")) scene.title = read_text(*v);
+  if (const auto v = root.find("lesson")) scene.lesson = read_text(*v);
+  if (const auto v = root.find("background")) scene.background = read_color(*v);
+  if (const auto v = root.find("ambient")) scene.ambient = read_color(*v);
+  if (const auto v = root.find("picture")) read_picture(*v, scene);
+  read_camera(root["camera"], scene.camera);
+  if (const auto v = root.find("trace")) read_trace(*v, scene.trace);
+  if (const auto v = root.find("light"))
+    for (const toml::table* light : read_tables(*v)) scene.lights.push_back(read_light(document, *light));
+
+  MaterialNames materials;
+  if (const auto v = root.find("material")) materials = read_materials(*v, scene);
+  ObjectSink sink{document, materials, scene, {}};
+  for (const ObjectEntry& entry : object_entries(root, wanted)) entry.read(sink, *entry.table);
+  files_read = std::move(sink.files_read);
+  return scene;
+}
+
+bool every_object(const ObjectEntry&) { return true; }
+
+// --- Steps -------------------------------------------------------------------------------------------------------
+
+// Reads the scene as a step would change it, and drops it: the camera, lights, materials and what else is small,
+// and of the objects those that the step names. Takes the step's values out of the file's tables, since only moved
+// nodes keep their place: a mistake is reported at the value that makes it, or at `where` if no single one does.
+void check_step(const Document& document, const toml::table& root, std::vector<Setting>& settings,
+                const SourceLocation& where) {
+  const Document changed_document{document.path, where};
+  toml::table changed = root;
+  std::vector<std::pair<std::string, std::size_t>> touched;
+  for (Setting& setting : settings) {
+    set_value(changed_document, changed, setting.path, setting.where, std::move(*setting.value));
+    const std::vector<std::string> keys = split_path(setting.path, where);
+    if (keys.size() > 1) touched.emplace_back(keys[0], element_number(keys[1]));
+  }
+  std::vector<std::string> files_read;
+  read_scene(
+      changed_document, changed,
+      [&](const ObjectEntry& entry) {
+        return std::ranges::find(touched, std::pair(std::string(entry.kind), entry.element)) != touched.end();
+      },
+      files_read);
+}
+
+// `check`: whether the scene stays valid with the step applied.
+Step read_step(const Document& document, const toml::table& root, toml::table& source, bool check) {
+  const TableReader table(document, source, "[[step]]",
+                          {.required = {"text"}, .optional = {"mode", "eye", "set"}});
+  Step step;
+  step.text = read_text(table["text"]);
+  if (const auto mode = table.find("mode")) step.mode = read_name(*mode, kStepModes);
+  if (const auto eye = table.find("eye")) step.eye = read_position(*eye);
+
+  std::vector<Setting> settings;
+  if (const auto set = table.find("set")) {
+    read_table(*set);
+    settings = settings_in(*source.get_as<toml::table>("set"), document);
+  }
+  for (const Setting& setting : settings) step.set.emplace_back(setting.path, toml_text(*setting.value));
+
+  // A step's eye moves the camera, after what it sets.
+  if (toml::node* eye = source.get("eye")) settings.push_back({"camera.eye", eye->source(), eye});
+  if (check && !settings.empty()) check_step(document, root, settings, table.where());
+  return step;
+}
+
+std::vector<Step> read_steps(const Document& document, toml::table& root, bool check) {
+  std::vector<Step> steps;
+  toml::node* node = root.get("step");
+  if (!node) return steps;
+  const Value value{document, *node, "step"};
+  if (read_tables(value).size() > kMaxSteps) value.fail("at most " + std::to_string(kMaxSteps) + " steps");
+  for (toml::node& step : *node->as_array())
+    steps.push_back(read_step(document, root, *step.as_table(), check));
+  return steps;
+}
+
+// --- Entry -------------------------------------------------------------------------------------------------------
+
+// The one value in `text`. It has no place in the scene file, so errors name the file as a whole.
+toml::table parse_setting(const std::string& text, const std::string& path, const std::string& key) {
+  toml::table parsed = parse_toml("value = " + text, path + " (set " + key + ")");
+  if (parsed.size() != 1 || !parsed.contains("value"))
+    throw InputError({path, 0, 0},
+                     "cannot set " + quoted(key) + " to " + quoted(text) + ", expected one value");
+  return toml::table(parsed);  // a copy, without places
+}
+
+Scene read_document(const std::string& text, const std::string& path, const Settings& set) {
+  const Document document{path, {path, 0, 0}};
+  toml::table root = parse_toml(text, path);
+  for (const auto& [key, value] : set) {
+    toml::table parsed = parse_setting(value, path, key);
+    set_value(document, root, key, {}, std::move(*parsed.get("value")));
+  }
+
+  std::vector<std::string> files_read;
+  Scene scene = read_scene(document, root, every_object, files_read);
+  // Steps start from the file as it is: with other settings applied, a step alone proves nothing.
+  scene.steps = read_steps(document, root, set.empty());
+
+  ContentHash hash;
+  hash.add(text);
+  for (const std::string& file : files_read) hash.add_file(file);
+  scene.hash = hash.hex();
+  return scene;
+}
+
+}  // namespace
+}  // namespace scene_file
+
+Scene load_scene(const std::string& path) { return parse_scene(scene_file::read_scene_text(path), path); }
+
+Scene parse_scene(const std::string& text, const std::string& path) {
+  return scene_file::read_document(text, path, {});
+}
+
+Scene load_scene_with(const std::string& path, const std::vector<std::pair<std::string, std::string>>& set) {
+  return scene_file::read_document(scene_file::read_scene_text(path), path, set);
+}
+
+}  // namespace sidelight

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include "common/scene/toml_objects.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "common/scene/build.h"
+#include "common/scene/obj.h"
+#include "common/scene/shapes.h"
+
+namespace sidelight::scene_file {
+namespace {
+
+std::uint32_t read_material(const ObjectSink& sink, const Value& value) {
+  const std::string name = read_text(value);
+  const auto found = sink.materials.find(name);
+  if (found != sink.materials.end()) return found->second;
+  std::vector<std::string_view> names;
+  for (const auto& [known, index] : sink.materials) names.push_back(known);
+  value.fail("a material: " + expected_one_of(names, name));
+}
+
+// --- Transforms ------------------------------------------------------------------------------------------------
+
+struct SinCos {
+  double sin, cos;
+};
+
+// Exact at multiples of 90 degrees, so that a quarter turn maps the axes onto each other.
+SinCos sin_cos(double degrees) {
+  const double angle = std::fmod(degrees, 360);  // exact
+  const double quarters = angle / 90;
+  if (quarters != std::trunc(quarters)) return {std::sin(glm::radians(angle)), std::cos(glm::radians(angle))};
+  constexpr std::array<SinCos, 4> kQuarter = {{{0, 1}, {1, 0}, {0, -1}, {-1, 0}}};
+  return kQuarter[(static_cast<std::size_t>(quarters + 4)) % 4];
+}
+
+// Counter-clockwise about the axis (0, 1, 2 for x, y, z) as seen from its tip.
+glm::dmat3 rotation(int axis, double degrees) {
+  const auto [sin, cos] = sin_cos(degrees);
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  glm::dmat3 matrix(1);  // columns: where the axes go
+  matrix[u][u] = cos;
+  matrix[u][v] = sin;
+  matrix[v][u] = -sin;
+  matrix[v][v] = cos;
+  return matrix;
+}
+
+glm::dvec3 read_scale(const Value& value) {
+  if (value.node.is_number()) return glm::dvec3(read_number(value, kCoordinate));
+  if (!value.node.is_array()) value.fail("a number or an array of 3");
+  return read_vector(value, kCoordinate);
+}
+
+// 16 numbers, row by row; the last row must be 0 0 0 1.
+Transform read_matrix(const Value& value) {
+  const toml::array& array = read_array(value, 16, "an array of 16 numbers, row by row");
+  constexpr std::array<double, 4> kLastRow = {0, 0, 0, 1};
+  Transform transform;
+  for (std::size_t i = 0; i < 16; ++i) {
+    const double x = read_number(value.element(array[i]), kCoordinate);
+    const int row = static_cast<int>(i / 4), column = static_cast<int>(i % 4);
+    if (row == 3 && x != kLastRow[i % 4]) value.element(array[i]).fail("the last row to be 0, 0, 0, 1");
+    if (row == 3) continue;
+    (column < 3 ? transform.linear[column] : transform.translate)[row] = x;
+  }
+  return transform;
+}
+
+Transform read_transform(const Value& value) {
+  const TableReader table(value.document, read_table(value), "transform",
+                          {.required = {}, .optional = {"translate", "rotate", "scale", "matrix"}});
+  if (const auto matrix = table.find("matrix")) {
+    for (const std::string_view other : {"translate", "rotate", "scale"})
+      if (table.find(other)) matrix->fail("it alone, or translate, rotate and scale without it");
+    return read_matrix(*matrix);
+  }
+  Transform transform;
+  if (const auto translate = table.find("translate")) transform.translate = read_position(*translate);
+  if (const auto rotate = table.find("rotate")) {
+    const glm::dvec3 degrees = read_vector(*rotate, kCoordinate);
+    transform.linear = rotation(2, degrees.z) * rotation(1, degrees.y) * rotation(0, degrees.x);
+  }
+  if (const auto scale = table.find("scale")) {
+    const glm::dvec3 factors = read_scale(*scale);
+    for (int axis = 0; axis < 3; ++axis) transform.linear[axis] *= factors[axis];
+  }
+  return transform;
+}
+
+// --- Meshes written out ----------------------------------------------------------------------------------------
+
+void read_face(const Value& value, PolygonMesh& mesh) {
+  const std::string expected = "faces of 3 to " + std::to_string(kMaxCorners) + " vertex indices";
+  const toml::array& indices = read_list(value, expected);
+  if (indices.size() < 3 || indices.size() > kMaxCorners) value.fail(expected);
+  const SourceLocation where = value.where();
+  mesh.faces.push_back({.first = static_cast<std::uint32_t>(mesh.corners.size()),
+                        .count = static_cast<std::uint32_t>(indices.size()),
+                        .material = 0,
+                        .line = where.line,
+                        .column = where.column});
+  const int last = static_cast<int>(mesh.positions.size()) - 1;
+  for (const toml::node& index : indices)
+    mesh.corners.push_back({static_cast<std::uint32_t>(read_integer(value.element(index), 0, last)), kNone});
+}
+
+PolygonMesh read_written(const TableReader& table) {
+  const Value vertices = table["vertices"], faces = table["faces"];
+  PolygonMesh mesh;
+  for (const toml::node& vertex : read_list(vertices, "an array of vertices, each of 3 numbers"))
+    mesh.positions.push_back(read_position(vertices.element(vertex)));
+  if (mesh.positions.size() < 3) vertices.fail("3 vertices or more");
+  for (const toml::node& face : read_list(faces, "an array of faces, each of vertex indices"))
+    read_face(faces.element(face), mesh);
+  if (mesh.faces.empty()) faces.fail("1 face or more");
+  return mesh;
+}
+
+// --- Generated shapes ------------------------------------------------------------------------------------------
+
+int segments_around(const TableReader& table) {
+  const auto segments = table.find("segments");
+  return segments ? read_integer(*segments, 3, kMaxSegments) : 64;
+}
+
+PolygonMesh read_box(const TableReader& table) { return make_box(read_vector(table["size"], kLength)); }
+
+PolygonMesh read_cylinder(const TableReader& table) {
+  return make_cylinder(read_number(table["radius"], kLength), read_number(table["height"], kLength),
+                       segments_around(table));
+}
+
+PolygonMesh read_cone(const TableReader& table) {
+  return make_cone(read_number(table["radius"], kLength), read_number(table["height"], kLength),
+                   segments_around(table));
+}
+
+PolygonMesh read_torus(const TableReader& table) {
+  const Value radii = table["radii"];
+  const toml::array& lengths = read_array(radii, 2, "[major, minor]");
+  const double major = read_number(radii.element(lengths[0]), kLength);
+  const double minor = read_number(radii.element(lengths[1]), kLength);
+  if (!(minor < major)) radii.element(lengths[1]).fail("a minor radius below the major one");
+
+  int around = 64, tube = 32;
+  if (const auto segments = table.find("segments")) {
+    const toml::array& counts = read_array(*segments, 2, "[around, tube]");
+    around = read_integer(segments->element(counts[0]), 3, kMaxSegments);
+    tube = read_integer(segments->element(counts[1]), 3, kMaxSegments);
+    if (around * tube > kMaxQuads) segments->fail("a product of at most " + std::to_string(kMaxQuads));
+  }
+  return make_torus(major, minor, around, tube);
+}
+
+struct Shape {
+  std::string_view name;
+  Keys keys;  // beyond those of every shape
+  PolygonMesh (*read)(const TableReader&);
+};
+
+const std::array<Shape, 4> kShapes = {{
+    {"box", {{"size"}, {}}, read_box},
+    {"cylinder", {{"radius", "height"}, {"segments"}}, read_cylinder},
+    {"cone", {{"radius", "height"}, {"segments"}}, read_cone},
+    {"torus", {{"radii"}, {"segments"}}, read_torus},
+}};
+
+const Shape& read_shape_name(const Value& value) {
+  std::array<std::string_view, kShapes.size()> names;
+  for (std::size_t i = 0; i < kShapes.size(); ++i) names[i] = kShapes[i].name;
+  const std::string name = read_name(value, names);
+  return *std::ranges::find(kShapes, name, &Shape::name);
+}
+
+// --- Mesh files ------------------------------------------------------------------------------------------------
+
+// Relative to the scene file's folder. Pipes and devices are refused: reading one might never end.
+std::string read_path(const Value& value) {
+  const std::string name = read_text(value);
+  const std::filesystem::path path = std::filesystem::path(value.document.path).parent_path() / name;
+  std::error_code ignored;
+  const bool named = !name.empty() && name.find('\0') == std::string::npos;
+  if (!named || !std::filesystem::exists(path, ignored))
+    value.fail("an existing file; there is no " + quoted(path.string()));
+  if (!std::filesystem::is_regular_file(path, ignored)) value.fail("a file, not a folder or a device");
+  return path.string();
+}
+
+// The polygons of an OBJ file; without a material of the table's own, the file's are added to the scene.
+PolygonMesh read_obj_mesh(ObjectSink& sink, const Value& value, bool own_materials) {
+  const std::string path = read_path(value);
+  ObjFile obj = read_obj(path, own_materials);
+  if (obj.mesh.faces.empty()) value.fail("a file with faces in it");
+  sink.files_read.insert(sink.files_read.end(), obj.files.begin(), obj.files.end());
+  sink.scene.warnings.insert(sink.scene.warnings.end(), obj.warnings.begin(), obj.warnings.end());
+  if (!own_materials) return std::move(obj.mesh);
+
+  std::vector<std::uint32_t> scene_index;
+  for (Material& material : obj.materials)
+    scene_index.push_back(add_material(sink.scene, std::move(material)));
+  for (PolygonMesh::Face& face : obj.mesh.faces) {
+    if (face.material == kNone)
+      throw InputError(
+          {path, face.line, face.column},
+          "a face before any usemtl, expected one (or a 'material' for the mesh in the scene file)");
+    face.material = scene_index[face.material];
+  }
+  return std::move(obj.mesh);
+}
+
+// --- One mesh --------------------------------------------------------------------------------------------------
+
+// A mesh is of one of three sorts, and each takes keys that make no sense for the others.
+PolygonMesh read_polygons(ObjectSink& sink, const toml::table& table) {
+  constexpr std::array<std::string_view, 3> kSorts = {"file", "shape", "vertices"};
+  const TableReader any(sink.document, table, "[[mesh]]",
+                        {.required = {},
+                         .optional = {"file", "shape", "vertices", "faces", "size", "radius", "height",
+                                      "radii", "segments", "material", "transform"}});
+  const std::string_view sort = any.only_one_of(kSorts);
+  if (sort == "file") {
+    const TableReader reader(sink.document, table, "[[mesh]] with a file",
+                             {.required = {"file"}, .optional = {"material", "transform"}});
+    return read_obj_mesh(sink, reader["file"], !reader.find("material"));
+  }
+  if (sort == "vertices") {
+    return read_written({sink.document,
+                         table,
+                         "[[mesh]] with vertices",
+                         {.required = {"vertices", "faces", "material"}, .optional = {"transform"}}});
+  }
+  const Shape& shape = read_shape_name(any["shape"]);
+  Keys keys = shape.keys;
+  keys.required.insert(keys.required.end(), {"shape", "material"});
+  keys.optional.push_back("transform");
+  return shape.read({sink.document, table, "[[mesh]] of shape " + quoted(shape.name), keys});
+}
+
+// A polygon of n corners makes n - 2 triangles.
+void check_triangle_count(const Scene& scene, const PolygonMesh& mesh, const SourceLocation& where) {
+  const std::size_t triangles = mesh.corners.size() - 2 * mesh.faces.size();
+  if (scene.triangles.size() + triangles > kMaxTriangles)
+    throw InputError(where, "this mesh brings the scene to " +
+                                std::to_string(scene.triangles.size() + triangles) +
+                                " triangles, expected at most " + std::to_string(kMaxTriangles));
+}
+
+}  // namespace
+
+void read_sphere(ObjectSink& sink, const toml::table& table) {
+  const TableReader reader(sink.document, table, "[[sphere]]",
+                           {.required = {"center", "radius", "material"}, .optional = {}});
+  Sphere sphere;
+  sphere.center = read_position(reader["center"]);
+  sphere.radius = read_number(reader["radius"], kLength);
+  sphere.material = read_material(sink, reader["material"]);
+  add_sphere(sink.scene, sphere, reader.where());
+}
+
+void read_plane(ObjectSink& sink, const toml::table& table) {
+  const TableReader reader(sink.document, table, "[[plane]]",
+                           {.required = {"point", "normal", "material"}, .optional = {}});
+  Plane plane;
+  plane.point = read_position(reader["point"]);
+  plane.normal = read_direction(reader["normal"]);
+  plane.material = read_material(sink, reader["material"]);
+  add_plane(sink.scene, plane, reader.where());
+}
+
+void read_mesh(ObjectSink& sink, const toml::table& table) {
+  PolygonMesh mesh = read_polygons(sink, table);
+  const SourceLocation where = sink.document.where(table);
+  check_triangle_count(sink.scene, mesh, where);
+  if (const toml::node* material = table.get("material")) {
+    const std::uint32_t index = read_material(sink, {sink.document, *material, "material"});
+    for (PolygonMesh::Face& face : mesh.faces) face.material = index;
+  }
+  Transform transform;
+  if (const toml::node* node = table.get("transform"))
+    transform = read_transform({sink.document, *node, "transform"});
+  add_mesh(sink.scene, mesh, transform, where);
+}
+
+}  // namespace sidelight::scene_file

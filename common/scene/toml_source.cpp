@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "common/scene/toml_source.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.h"
+
+namespace sidelight::scene_file {
+namespace {
+
+// Line and column (in code points, as toml++ counts) of text[at].
+SourceLocation location_of(std::string_view text, std::size_t at, const std::string& path) {
+  const std::string_view before = text.substr(0, at);
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::string_view row = before.substr(before.rfind('\n') + 1);  // npos + 1 is 0
+  const auto column = std::count_if(row.begin(), row.end(), [](char c) { return (c & 0xC0) != 0x80; }) + 1;
+  return {path, static_cast<int>(line), static_cast<int>(column)};
+}
+
+// Where the comment or string (of TOML's four kinds) that begins at text[at] ends: at the character after it, or,
+// if it is not closed, where toml++ will complain before it reads another key.
+std::size_t after_comment(std::string_view text, std::size_t at) { return text.find('\n', at); }
+
+std::size_t after_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string_view triple = quote == '"' ? "\"\"\"" : "'''";
+  const bool multi_line = text.substr(at, 3) == triple;
+  const std::string_view close = multi_line ? triple : triple.substr(0, 1);
+  for (std::size_t i = at + close.size(); i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\')
+      ++i;
+    else if (text.substr(i, close.size()) == close)
+      return i + close.size();
+    else if (!multi_line && text[i] == '\n')
+      return i;
+  }
+  return text.size();
+}
+
+// toml++ bounds the nesting of values but not the parts of a dotted key, and destroys tables recursively: one key of
+// a million parts would overflow the stack, in the error path too. So keys are measured before it sees them: dots
+// between separators, outside of strings and comments (a number has one at most).
+void check_key_lengths(std::string_view text, const std::string& path) {
+  int dots = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '#') {
+      i = std::min(after_comment(text, i), text.size());
+      continue;
+    }
+    if (c == '"' || c == '\'') {
+      i = after_string(text, i);
+      continue;
+    }
+    if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) dots = 0;
+    if (c == '.' && ++dots >= kMaxKeyParts)
+      throw InputError(location_of(text, i, path), "a dotted key goes on here, expected one of at most " +
+                                                       std::to_string(kMaxKeyParts) + " parts");
+    ++i;
+  }
+}
+
+InputError unreadable(const std::string& path, const char* what) { return InputError({path, 0, 0}, what); }
+
+std::ifstream open(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw unreadable(path, "is a folder, expected a file");
+  if (!std::filesystem::exists(path, ignored)) throw unreadable(path, "no such file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw unreadable(path, "cannot be opened, expected a readable file");
+  return file;
+}
+
+}  // namespace
+
+std::string read_scene_text(const std::string& path) {
+  std::ifstream file = open(path);
+  std::string text;
+  std::array<char, 65536> block;
+  while (file.read(block.data(), block.size()) || file.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    if (text.size() > kMaxSceneBytes)
+      throw unreadable(path,
+                       "is larger than 16 MiB, expected a smaller scene file (meshes can be OBJ files)");
+  }
+  if (file.bad()) throw unreadable(path, "cannot be read to its end");
+  return text;
+}
+
+void ContentHash::add(std::string_view bytes) {
+  for (const char byte : bytes) state_ = (state_ ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+}
+
+void ContentHash::add_file(const std::string& path) {
+  std::ifstream file = open(path);
+  std::array<char, 65536> block;
+  while (file.read(block.data(), block.size()) || file.gcount() > 0)
+    add({block.data(), static_cast<std::size_t>(file.gcount())});
+  if (file.bad()) throw unreadable(path, "cannot be read to its end");
+}
+
+std::string ContentHash::hex() const {
+  std::array<char, 17> digits;
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(state_));
+  return digits.data();
+}
+
+toml::table parse_toml(std::string_view text, const std::string& path) {
+  check_key_lengths(text, path);
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    const std::string description(error.description());
+    // toml++ does not say why it cannot read 1e400.
+    const bool number = description.find("parsing floating-point") != std::string::npos;
+    throw InputError({path, static_cast<int>(at.line), static_cast<int>(at.column)},
+                     "not valid TOML: " + description + (number ? ", expected a finite number" : ""));
+  }
+}
+
+}  // namespace sidelight::scene_file
