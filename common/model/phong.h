@@ -63,8 +63,11 @@ template <class F>
 F specular_power(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const F& shininess) {
   const Vec3<F> apart = mirrored - to_viewer;
   const F below_one = F(Scalar<F>(0.5)) * dot(apart, apart);   // 1 - Rl.V
-  const Mask<F> seen = dot(mirrored, to_viewer) > F(0) && below_one < F(1);
-  const F power = lane_exp<F>(shininess * lane_log1p<F>(select<F>(seen, -below_one, F(0))));
+  const Mask<F> seen = dot(mirrored, to_viewer) > F(0);
+  // Next to grazing, rounding takes it to 1 and beyond: then the smallest cosine it can tell from 0, so that s = 0 is 1.
+  const F most = F(1 - std::numeric_limits<Scalar<F>>::epsilon() / 2);
+  const F capped = select<F>(below_one < most, below_one, most);
+  const F power = lane_exp<F>(shininess * lane_log1p<F>(-capped));
   return select<F>(seen, power, F(0));
 }
 

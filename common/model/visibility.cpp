@@ -126,9 +126,9 @@ Place locate_plane(const Plane& plane, const Ray& ray, const Hit& hit) {
   const glm::dvec3 p = ray.origin + hit.t * ray.direction;
   place.point = p - glm::dot(plane.normal, p - plane.point) * plane.normal;
   place.entering = glm::dot(plane.normal, ray.direction) < 0;
-  // n . (P0 - p) rounds by 3 u per component of |P0| + |p|, when the point is put on the plane and when it is left.
-  place.clearance =
-      16 * kU * glm::dot(absolute(plane.normal), absolute(plane.point) + absolute(place.point));
+  // With q = |p - P0|, per component seen along the normal: n . (p - P0) is off by 4 u q when the point is put on the
+  // plane and when it is left again, the point by u |p| when it is put there and when it is moved off. With room:
+  place.clearance = kU * glm::dot(absolute(plane.normal), 10.0 * absolute(p - plane.point) + 3.0 * absolute(p));
   return place;
 }
 
@@ -270,20 +270,22 @@ bool before_light(const Scene& scene, const Hit& hit, const Ray& ray, const glm:
     return view_side(view_triangle(light, v0, v1, v2), counts) *
                view_side(view_triangle(ray.origin, v0, v1, v2), counts) < 0;
   }
-  // A light that touches the plane or sphere, as far as rounding lets one tell, is not behind it.
-  double height = 0, bound = 0;
+  // A light that touches the plane or sphere, as far as rounding lets one tell, is not behind that point of it.
   if (ref.kind == ObjectKind::plane) {
     const Plane& plane = scene.planes[ref.index];
-    height = glm::dot(plane.normal, light - plane.point);
-    bound = 4 * kU * glm::dot(absolute(plane.normal), absolute(plane.point) + absolute(light));
-  } else {
-    const Sphere& sphere = scene.spheres[ref.index];
-    const glm::dvec3 f = light - sphere.center;
-    const double r2 = sphere.radius * sphere.radius;
-    height = glm::dot(f, f) - r2;
-    bound = 8 * kU * (r2 + glm::dot(absolute(f), absolute(light) + absolute(sphere.center)));
+    const double height = glm::dot(plane.normal, light - plane.point);
+    const double bound = 4 * kU * glm::dot(absolute(plane.normal), absolute(plane.point) + absolute(light));
+    return std::abs(height) > bound && hit.t < 1;
   }
-  return std::abs(height) > bound && hit.t < 1;
+  const Sphere& sphere = scene.spheres[ref.index];
+  const glm::dvec3 f = light - sphere.center;
+  const double r2 = sphere.radius * sphere.radius;
+  const double height = glm::dot(f, f) - r2;
+  const double bound = 8 * kU * (r2 + glm::dot(absolute(f), absolute(light) + absolute(sphere.center)));
+  if (std::abs(height) > bound) return hit.t < 1;
+  // The light ends a chord, whose middle is at t = 1 - f.d/d.d: the hit is its other end if it lies before that.
+  const double half_chord = glm::dot(f, ray.direction) / glm::dot(ray.direction, ray.direction);
+  return half_chord > 0 && hit.t < 1 - half_chord;
 }
 
 Place locate(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts) {

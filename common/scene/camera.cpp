@@ -46,7 +46,7 @@ Camera make_camera(const CameraSettings& settings, int width, int height, int n)
   // Orthogonal to forward again: where up is nearly parallel, the cross product alone is not.
   across = unit(across);
   const glm::dvec3 right = unit(across - glm::dot(across, forward) * forward);
-  const glm::dvec3 up = glm::cross(right, forward);
+  const glm::dvec3 up = unit(glm::cross(right, forward));   // of length 1 but for the rounding of both
 
   Camera camera;
   camera.eye = settings.eye;

@@ -46,7 +46,11 @@ std::string listed(Range range) {
 
 }  // namespace
 
-std::string quoted(const Word& word) { return "'" + printable(std::string(word.text), 40) + "'"; }
+std::string quoted(const Word& word) {
+  std::string text = "'";
+  text += printable(std::string(word.text), 40);
+  return text += '\'';
+}
 
 std::string read_text(const std::string& path, const SourceLocation& blame) {
   const auto fail = [&](const std::string& why) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <glm/trigonometric.hpp>
-#include <tuple>
 
 #include "common/scene/build.h"
 #include "common/scene/step_modes.h"
@@ -110,14 +109,15 @@ Material read_material(const Value& value) {
 
 // Into the scene in the order of the file, and their numbers by name.
 MaterialNames read_materials(const Value& value, Scene& scene) {
-  std::vector<Value> entries;
-  for (const auto& [name, node] : read_table(value)) entries.push_back({value.document, node, name.str()});
-  std::ranges::stable_sort(entries, {}, [](const Value& entry) {
-    const SourceLocation where = entry.where();
-    return std::tuple(where.line, where.column);
+  const toml::table& table = read_table(value);
+  std::vector<std::string_view> in_order;
+  for (const auto& [name, node] : table) in_order.push_back(name.str());
+  std::ranges::stable_sort(in_order, {}, [&](std::string_view name) {
+    return file_order(value.document.where(*table.get(name)));
   });
   MaterialNames names;
-  for (const Value& entry : entries) names.emplace(entry.name, add_material(scene, read_material(entry)));
+  for (const std::string_view name : in_order)
+    names.emplace(name, add_material(scene, read_material({value.document, *table.get(name), name})));
   return names;
 }
 
@@ -155,8 +155,7 @@ std::vector<ObjectEntry> object_entries(const TableReader& root, const ObjectFil
       if (wanted(entry)) entries.push_back(entry);
     }
   }
-  std::ranges::stable_sort(
-      entries, {}, [](const ObjectEntry& entry) { return std::tuple(entry.where.line, entry.where.column); });
+  std::ranges::stable_sort(entries, {}, [](const ObjectEntry& entry) { return file_order(entry.where); });
   return entries;
 }
 
@@ -183,7 +182,7 @@ Scene read_scene(const Document& document, const toml::table& source, const Obje
 
   MaterialNames materials;
   if (const auto v = root.find("material")) materials = read_materials(*v, scene);
-  ObjectSink sink{document, materials, scene, {}};
+  ObjectSink sink{.document = document, .materials = materials, .scene = scene};
   for (const ObjectEntry& entry : object_entries(root, wanted)) entry.read(sink, *entry.table);
   files_read = std::move(sink.files_read);
   return scene;
@@ -250,13 +249,14 @@ std::vector<Step> read_steps(const Document& document, toml::table& root, bool c
 
 // --- Entry -------------------------------------------------------------------------------------------------------
 
-// The one value in `text`. It has no place in the scene file, so errors name the file as a whole.
+// { value = ... } from a setting's text. Mistakes in the text are reported in it, not in the scene file; the result
+// is a copy, whose nodes have no place, so that mistakes found later name the file as a whole.
 toml::table parse_setting(const std::string& text, const std::string& path, const std::string& key) {
-  toml::table parsed = parse_toml("value = " + text, path + " (set " + key + ")");
+  const toml::table parsed = parse_toml("value = " + text, path + " (set " + key + ")");
   if (parsed.size() != 1 || !parsed.contains("value"))
     throw InputError({path, 0, 0},
-                     "cannot set " + quoted(key) + " to " + quoted(text) + ", expected one value");
-  return toml::table(parsed);  // a copy, without places
+                     "cannot set " + in_quotes(key) + " to " + in_quotes(text) + ", expected one value");
+  return toml::table(parsed);  // not moved: a copy leaves places behind
 }
 
 Scene read_document(const std::string& text, const std::string& path, const Settings& set) {

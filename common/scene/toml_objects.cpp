@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/scene/toml_objects.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -186,7 +187,7 @@ std::string read_path(const Value& value) {
   std::error_code ignored;
   const bool named = !name.empty() && name.find('\0') == std::string::npos;
   if (!named || !std::filesystem::exists(path, ignored))
-    value.fail("an existing file; there is no " + quoted(path.string()));
+    value.fail("an existing file; there is no " + in_quotes(path.string()));
   if (!std::filesystem::is_regular_file(path, ignored)) value.fail("a file, not a folder or a device");
   return path.string();
 }
@@ -195,7 +196,6 @@ std::string read_path(const Value& value) {
 PolygonMesh read_obj_mesh(ObjectSink& sink, const Value& value, bool own_materials) {
   const std::string path = read_path(value);
   ObjFile obj = read_obj(path, own_materials);
-  if (obj.mesh.faces.empty()) value.fail("a file with faces in it");
   sink.files_read.insert(sink.files_read.end(), obj.files.begin(), obj.files.end());
   sink.scene.warnings.insert(sink.scene.warnings.end(), obj.warnings.begin(), obj.warnings.end());
   if (!own_materials) return std::move(obj.mesh);
@@ -214,6 +214,26 @@ PolygonMesh read_obj_mesh(ObjectSink& sink, const Value& value, bool own_materia
 }
 
 // --- One mesh --------------------------------------------------------------------------------------------------
+
+// A polygon of n corners makes n - 2 triangles.
+std::size_t triangle_count(const PolygonMesh& mesh) { return mesh.corners.size() - 2 * mesh.faces.size(); }
+
+void check_triangle_count(std::size_t count, std::size_t limit, const char* what,
+                          const SourceLocation& where) {
+  if (count > limit)
+    throw InputError(where, "with this mesh the scene has " + std::to_string(count) + " triangles" + what +
+                                ", expected at most " + std::to_string(limit));
+}
+
+PolygonMesh read_shape(ObjectSink& sink, const toml::table& table, const Shape& shape) {
+  Keys keys = shape.keys;
+  keys.required.insert(keys.required.end(), {"shape", "material"});
+  keys.optional.push_back("transform");
+  PolygonMesh mesh = shape.read({sink.document, table, "[[mesh]] of shape " + in_quotes(shape.name), keys});
+  sink.generated += triangle_count(mesh);
+  check_triangle_count(sink.generated, kMaxGenerated, " of generated shapes", sink.document.where(table));
+  return mesh;
+}
 
 // A mesh is of one of three sorts, and each takes keys that make no sense for the others.
 PolygonMesh read_polygons(ObjectSink& sink, const toml::table& table) {
@@ -234,20 +254,7 @@ PolygonMesh read_polygons(ObjectSink& sink, const toml::table& table) {
                          "[[mesh]] with vertices",
                          {.required = {"vertices", "faces", "material"}, .optional = {"transform"}}});
   }
-  const Shape& shape = read_shape_name(any["shape"]);
-  Keys keys = shape.keys;
-  keys.required.insert(keys.required.end(), {"shape", "material"});
-  keys.optional.push_back("transform");
-  return shape.read({sink.document, table, "[[mesh]] of shape " + quoted(shape.name), keys});
-}
-
-// A polygon of n corners makes n - 2 triangles.
-void check_triangle_count(const Scene& scene, const PolygonMesh& mesh, const SourceLocation& where) {
-  const std::size_t triangles = mesh.corners.size() - 2 * mesh.faces.size();
-  if (scene.triangles.size() + triangles > kMaxTriangles)
-    throw InputError(where, "this mesh brings the scene to " +
-                                std::to_string(scene.triangles.size() + triangles) +
-                                " triangles, expected at most " + std::to_string(kMaxTriangles));
+  return read_shape(sink, table, read_shape_name(any["shape"]));
 }
 
 }  // namespace
@@ -275,7 +282,7 @@ void read_plane(ObjectSink& sink, const toml::table& table) {
 void read_mesh(ObjectSink& sink, const toml::table& table) {
   PolygonMesh mesh = read_polygons(sink, table);
   const SourceLocation where = sink.document.where(table);
-  check_triangle_count(sink.scene, mesh, where);
+  check_triangle_count(sink.scene.triangles.size() + triangle_count(mesh), kMaxTriangles, "", where);
   if (const toml::node* material = table.get("material")) {
     const std::uint32_t index = read_material(sink, {sink.document, *material, "material"});
     for (PolygonMesh::Face& face : mesh.faces) face.material = index;

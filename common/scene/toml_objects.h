@@ -15,9 +15,10 @@ namespace sidelight::scene_file {
 
 // Limits on what a few bytes of scene file may ask for.
 inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 25;  // in a scene
+inline constexpr std::size_t kMaxGenerated = std::size_t{1} << 22;  // of those, from shapes
 inline constexpr std::size_t kMaxCorners = 10'000;  // of a written face: triangulation is O(n²)
 inline constexpr int kMaxSegments = 4096;           // of a shape, around
-inline constexpr int kMaxQuads = 1 << 20;           // of a torus
+inline constexpr int kMaxQuads = 1 << 18;           // of a torus
 
 // Materials of the scene file by name; values index Scene::materials.
 using MaterialNames = std::map<std::string, std::uint32_t, std::less<>>;
@@ -26,8 +27,9 @@ using MaterialNames = std::map<std::string, std::uint32_t, std::less<>>;
 struct ObjectSink {
   const Document& document;
   const MaterialNames& materials;
-  Scene& scene;                         // objects are added, and warnings of mesh files
-  std::vector<std::string> files_read;  // OBJ and MTL files, in order
+  Scene& scene;                           // objects are added, and warnings of mesh files
+  std::vector<std::string> files_read{};  // OBJ and MTL files, in order
+  std::size_t generated = 0;              // triangles of shapes so far
 };
 
 // Each adds the one object of `table`. InputError for every mistake.

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <sstream>
-#include <tuple>
 
 namespace sidelight::scene_file {
 namespace {
@@ -35,12 +34,12 @@ void collect(toml::table& table, const std::string& prefix, std::vector<Setting>
 
 // Takes the first key off `rest`, with its quotes; nullopt if there is none.
 std::optional<std::string_view> first_key(std::string_view& rest) {
-  const bool in_quotes = !rest.empty() && (rest[0] == '"' || rest[0] == '\'');
-  const std::size_t end = in_quotes ? rest.find(rest[0], 1) : std::min(rest.find('.'), rest.size());
+  const bool is_quoted = !rest.empty() && (rest[0] == '"' || rest[0] == '\'');
+  const std::size_t end = is_quoted ? rest.find(rest[0], 1) : std::min(rest.find('.'), rest.size());
   if (end == std::string_view::npos) return std::nullopt;
-  const std::string_view key = in_quotes ? rest.substr(1, end - 1) : rest.substr(0, end);
-  rest.remove_prefix(in_quotes ? end + 1 : end);
-  if (!in_quotes && !is_bare(key)) return std::nullopt;
+  const std::string_view key = is_quoted ? rest.substr(1, end - 1) : rest.substr(0, end);
+  rest.remove_prefix(is_quoted ? end + 1 : end);
+  if (!is_quoted && !is_bare(key)) return std::nullopt;
   return key;
 }
 
@@ -51,7 +50,7 @@ struct Walk {
   toml::source_region region;
 
   [[noreturn]] void fail(const std::string& why) const {
-    throw InputError(document.where(region), "cannot set " + quoted(path) + ": " + why);
+    throw InputError(document.where(region), "cannot set " + in_quotes(path) + ": " + why);
   }
 };
 
@@ -64,14 +63,14 @@ toml::node* child(toml::node& parent, const std::string& key) {
 // There is no `key` in `parent` and none may be added.
 [[noreturn]] void fail_missing(const Walk& walk, const toml::node& parent, const std::string& key) {
   if (const auto* array = parent.as_array())
-    walk.fail("there is no element " + quoted(key) + ", expected one of " + std::to_string(array->size()) +
+    walk.fail("there is no element " + in_quotes(key) + ", expected one of " + std::to_string(array->size()) +
               ", counted from 0");
   const auto* table = parent.as_table();
   if (!table)
-    walk.fail("there is nothing inside a plain value, expected the path to end before " + quoted(key));
+    walk.fail("there is nothing inside a plain value, expected the path to end before " + in_quotes(key));
   std::vector<std::string_view> names;
   for (const auto& [name, node] : *table) names.push_back(name.str());
-  walk.fail("there is no " + quoted(key) + ", expected " + expected_one_of(names, key));
+  walk.fail("there is no " + in_quotes(key) + ", expected " + expected_one_of(names, key));
 }
 
 // The node under `key`; a table that the file left out (say, [trace]) is made, a material is not.
@@ -87,10 +86,8 @@ toml::node& descend(const Walk& walk, toml::table& root, toml::node& parent, con
 std::vector<Setting> settings_in(toml::table& set, const Document& document) {
   std::vector<Setting> settings;
   collect(set, "", settings);
-  std::ranges::sort(settings, {}, [&](const Setting& setting) {
-    const SourceLocation where = document.where(setting.where);
-    return std::tuple(where.line, where.column);
-  });
+  std::ranges::stable_sort(settings, {},
+                           [&](const Setting& setting) { return file_order(document.where(setting.where)); });
   return settings;
 }
 
@@ -103,7 +100,7 @@ std::vector<std::string> split_path(std::string_view path, const SourceLocation&
     if (rest.empty()) return keys;
     if (rest[0] != '.') break;
   }
-  throw InputError(where, quoted(path) +
+  throw InputError(where, in_quotes(path) +
                               " is not a key path, expected keys with dots between them, such as "
                               "trace.depth or light.0.intensity");
 }

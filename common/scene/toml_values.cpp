@@ -19,7 +19,7 @@ std::string found(const toml::node& node) {
   if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
   if (const auto* number = node.as_floating_point()) return number_text(number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  if (const auto* text = node.as_string()) return "the text " + quoted(text->get());
+  if (const auto* text = node.as_string()) return "the text " + in_quotes(text->get());
   if (const auto* array = node.as_array()) return "an array of " + std::to_string(array->size());
   return node.is_table() ? "a table" : "a date or time";
 }
@@ -40,11 +40,13 @@ std::string number_text(double x) {
   return {digits.data(), end.ptr};
 }
 
-std::string quoted(std::string_view name) { return "'" + printable(std::string(name), kNameInMessage) + "'"; }
+std::string in_quotes(std::string_view name) {
+  return "'" + printable(std::string(name), kNameInMessage) + "'";
+}
 
 std::string expected_one_of(std::span<const std::string_view> names, std::string_view found_name) {
   if (names.empty()) return "one, but there are none";
-  return "one of " + joined(names) + "; did you mean " + quoted(nearest_name(found_name, names)) + "?";
+  return "one of " + joined(names) + "; did you mean " + in_quotes(nearest_name(found_name, names)) + "?";
 }
 
 SourceLocation Document::where(const toml::source_region& region) const {
@@ -53,7 +55,7 @@ SourceLocation Document::where(const toml::source_region& region) const {
 }
 
 void Value::fail(const std::string& expected) const {
-  throw InputError(where(), quoted(name) + " is " + found(node) + ", expected " + expected);
+  throw InputError(where(), in_quotes(name) + " is " + found(node) + ", expected " + expected);
 }
 
 bool read_flag(const Value& value) {
@@ -152,11 +154,11 @@ TableReader::TableReader(const Document& document, const toml::table& table, std
   known.insert(known.end(), keys.optional.begin(), keys.optional.end());
   for (const auto& [key, node] : table_)
     if (std::ranges::find(known, key.str()) == known.end())
-      throw InputError(document_.where(key.source()), "unknown key " + quoted(key.str()) + " in " + name_ +
+      throw InputError(document_.where(key.source()), "unknown key " + in_quotes(key.str()) + " in " + name_ +
                                                           ", expected " + expected_one_of(known, key.str()));
   for (const std::string_view key : keys.required)
     if (!table_.contains(key))
-      throw InputError(where(), name_ + " lacks " + quoted(key) + ", which is required");
+      throw InputError(where(), name_ + " lacks " + in_quotes(key) + ", which is required");
 }
 
 std::optional<Value> TableReader::find(std::string_view key) const {
@@ -178,8 +180,9 @@ std::string_view TableReader::only_one_of(std::span<const std::string_view> keys
   const std::string expected = ", expected exactly one of " + joined(keys);
   if (present.empty()) throw InputError(where(), name_ + " has none of them" + expected);
   if (present.size() > 1)
-    throw InputError(document_.where(table_.find(present.back())->first.source()),
-                     name_ + " has " + quoted(present[0]) + " and " + quoted(present.back()) + expected);
+    throw InputError(
+        document_.where(table_.find(present.back())->first.source()),
+        name_ + " has " + in_quotes(present[0]) + " and " + in_quotes(present.back()) + expected);
   return present[0];
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/scene/scene.h"
@@ -26,6 +27,9 @@ struct Document {
   SourceLocation where(const toml::source_region& region) const;
   SourceLocation where(const toml::node& node) const { return where(node.source()); }
 };
+
+// Sorts by place in the file.
+inline std::pair<int, int> file_order(const SourceLocation& where) { return {where.line, where.column}; }
 
 // A node under the name that messages give it: its key, which its array's elements share.
 struct Value {
@@ -82,7 +86,7 @@ std::vector<const toml::table*> read_tables(const Value& value);
 // The shortest text that reads back as x; TOML, too.
 std::string number_text(double x);
 // `name` in quotes, fit for a message.
-std::string quoted(std::string_view name);
+std::string in_quotes(std::string_view name);
 // "one of a, b, c; did you mean 'b'?" (nearest_name.h).
 std::string expected_one_of(std::span<const std::string_view> names, std::string_view found);
 

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/window/canvas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <mutex>
+
+#include "viewer/window/layout.h"
+
+namespace sidelight {
+namespace {
+
+constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+// First and last of each range, closed by 0: Latin with the names of authors, Greek, punctuation with dashes
+// and quotes, sub- and superscripts, arrows, mathematics.
+constexpr ImWchar kGlyphs[] = {0x0020, 0x017F, 0x0370, 0x03FF, 0x2010, 0x2027, 0x2030, 0x205E,
+                               0x2070, 0x209C, 0x2190, 0x21FF, 0x2200, 0x22FF, 0};
+
+// Makes a context ImGui's current one for the length of a scope, alone in the process.
+class CurrentContext {
+ public:
+  explicit CurrentContext(ImGuiContext* context) : lock_(mutex()), before_(ImGui::GetCurrentContext()) {
+    ImGui::SetCurrentContext(context);
+  }
+  ~CurrentContext() { ImGui::SetCurrentContext(before_); }
+  CurrentContext(const CurrentContext&) = delete;
+  CurrentContext& operator=(const CurrentContext&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  std::lock_guard<std::mutex> lock_;
+  ImGuiContext* before_;
+};
+
+ImGuiContext* make_context() {
+  const CurrentContext none(nullptr);
+  return ImGui::CreateContext();  // with a font atlas of its own
+}
+
+ImFont* add_font(ImFontAtlas& atlas, double pixels) {
+  ImFontConfig config;
+  config.OversampleH = config.OversampleV =
+      1;  // glyphs stand on whole pixels: sharp, and the same everywhere
+  config.PixelSnapH = true;
+  config.SizePixels = static_cast<float>(std::lround(pixels));
+  if (std::filesystem::exists(kFontFile))
+    if (ImFont* font = atlas.AddFontFromFileTTF(kFontFile, config.SizePixels, &config, kGlyphs)) return font;
+  config.SizePixels = 13 * std::max(1.0f, std::round(config.SizePixels / 13));  // it is drawn for 13 pixels
+  return atlas.AddFontDefault(&config);
+}
+
+}  // namespace
+
+void Canvas::DestroyContext::operator()(ImGuiContext* context) const {
+  const CurrentContext current(context);
+  ImGui::DestroyContext(context);
+}
+
+Canvas::Canvas(GlLoader loader, double scale)
+    : gl_(load_gl(loader)), painter_(gl_), scale_(scale), context_(make_context()) {
+  const CurrentContext current(context_.get());
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  io.BackendRendererName = "sidelight";
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  load_fonts();
+}
+
+Canvas::~Canvas() = default;
+
+void Canvas::set_scale(double scale) {
+  if (scale == scale_) return;
+  scale_ = scale;
+  const CurrentContext current(context_.get());
+  load_fonts();
+}
+
+void Canvas::load_fonts() {
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  atlas.Clear();
+  fonts_.small = add_font(atlas, kSmallText * scale_);  // the first is ImGui's own default
+  fonts_.caption = add_font(atlas, kCaptionText * scale_);
+  fonts_.title = add_font(atlas, kTitleText * scale_);
+  unsigned char* rgba = nullptr;
+  int width = 0, height = 0;
+  atlas.GetTexDataAsRGBA32(&rgba, &width, &height);
+  font_texture_.emplace(make_font_texture(gl_, width, height, rgba));
+  atlas.SetTexID(texture_id(*font_texture_));
+  atlas.ClearTexData();
+}
+
+ImTextureID Canvas::add_picture(const Image8& image) {
+  return texture_id(pictures_.emplace_back(make_picture_texture(gl_, image)));
+}
+
+void Canvas::draw(int width, int height, const std::function<void()>& contents) {
+  const CurrentContext current(context_.get());
+  ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+  ImGui::NewFrame();
+  try {
+    contents();
+  } catch (...) {
+    ImGui::EndFrame();
+    throw;
+  }
+  ImGui::Render();
+  painter_.paint(*ImGui::GetDrawData());
+}
+
+}  // namespace sidelight

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// A Dear ImGui context with its fonts and the OpenGL objects to draw it: where panels are drawn, in a window
+// or off screen. It knows neither GLFW nor OSMesa; whoever makes it has made an OpenGL context current, on
+// this thread, and keeps it so while the canvas lives.
+//
+// ImGui keeps "the current context" in one global pointer. A canvas sets it for the length of each call,
+// under a lock, and puts it back: canvases of several threads cannot meet. No imgui.ini and no log is read or
+// written.
+#pragma once
+
+#include <imgui.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/picture/image_io.h"
+#include "viewer/window/draw_lists.h"
+#include "viewer/window/gl.h"
+
+namespace sidelight {
+
+// DejaVu Sans in three sizes (layout.h), or ImGui's built-in font where that is not installed.
+struct Fonts {
+  ImFont* title = nullptr;
+  ImFont* caption = nullptr;
+  ImFont* small = nullptr;
+};
+
+class Canvas {
+ public:
+  // Throws std::runtime_error if the OpenGL context lacks something.
+  explicit Canvas(GlLoader loader, double scale = 1);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  // Sizes of text, as a factor; not within draw. Does nothing where the factor is the present one.
+  void set_scale(double scale);
+  double scale() const { return scale_; }
+  const Fonts& fonts() const { return fonts_; }
+
+  // Uploads a picture; the handle is good as long as the canvas. Throws UsageError if it is too large for
+  // OpenGL.
+  ImTextureID add_picture(const Image8& image);
+
+  // One frame: `contents` calls ImGui, and the result is painted over the framebuffer of width x height. No
+  // canvas may be used within `contents` but this one's fonts. What `contents` throws passes through.
+  void draw(int width, int height, const std::function<void()>& contents);
+
+  // Waits until all drawing has reached the framebuffer.
+  void finish() const { gl_.Finish(); }
+
+ private:
+  void load_fonts();
+
+  struct DestroyContext {
+    void operator()(ImGuiContext* context) const;
+  };
+
+  Gl gl_;
+  DrawListPainter painter_;
+  double scale_;
+  Fonts fonts_;
+  std::optional<GlObject> font_texture_;
+  std::vector<GlObject> pictures_;
+  std::unique_ptr<ImGuiContext, DestroyContext> context_;
+};
+
+}  // namespace sidelight

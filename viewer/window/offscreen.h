@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Drawing without a screen, by OSMesa: pictures of the comparison for `compare` and for `view --screenshot`.
+//
+// Each call makes its OpenGL context on a thread of its own and is done with it on return: Mesa keeps one
+// dispatch table per thread, and after OSMesa has been current on one, a window's calls there would go to
+// OSMesa's buffer. May be called from any thread, but not from within Canvas::draw. Equal arguments give
+// equal bytes.
+//
+// Where the program was built without OSMesa (Mesa 25.1 dropped it) each function throws UsageError saying
+// so.
+#pragma once
+
+#include <functional>
+
+#include "common/picture/image_io.h"
+#include "viewer/window/panels.h"
+
+namespace sidelight {
+
+// Runs `draw` with a fresh canvas and returns what it drew by Canvas::draw, which it must call with this
+// size. What it throws passes through. Throws UsageError if the size is not within what OSMesa can draw (1 to
+// 16384).
+Image8 draw_offscreen(int width, int height, const std::function<void(Canvas&)>& draw);
+
+// Both pictures at zoom 1, their own bytes, with title and captions; the size follows from the pictures.
+// Throws std::invalid_argument unless the pictures have one size.
+Image8 side_by_side(const Image8& left, const Image8& right, const Labels& labels);
+
+// Where side_by_side puts the left and the right picture.
+struct PictureBoxes {
+  Rect left, right;
+};
+PictureBoxes side_by_side_boxes(glm::ivec2 picture, const Labels& labels);
+
+// What a window of this size shows when it opens. Throws as side_by_side does.
+Image8 screenshot(const Image8& left, const Image8& right, const Labels& labels, int width, int height);
+
+}  // namespace sidelight
