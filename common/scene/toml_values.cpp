@@ -116,7 +116,7 @@ glm::dvec3 read_direction(const Value& value) {
 
 glm::dvec3 read_color(const Value& value) {
   if (value.node.is_number()) return glm::dvec3(read_number(value, kNotNegative));
-  if (!value.node.is_array()) value.fail("a colour: 3 numbers from 0 to 1e15, or one for grey");
+  if (!value.node.is_array()) value.fail("a colour: 3 numbers from 0 to 1e30, or one for grey");
   return read_vector(value, kNotNegative);
 }
 

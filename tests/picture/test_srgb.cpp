@@ -22,7 +22,7 @@ TEST_CASE("the sRGB curve has its known values") {
   CHECK(decode_srgb(1) == 1);
 }
 
-TEST_CASE("values outside [0, 1] are clamped, NaN is black") {
+TEST_CASE("values outside 0 to 1 are clamped, NaN is black") {
   const float inf = std::numeric_limits<float>::infinity();
   CHECK(encode_srgb8(1e30f) == 255);
   CHECK(encode_srgb8(inf) == 255);

@@ -140,7 +140,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
       "Exit code 1 if any sample or pixel is not accounted for.\n"
       "Examples:\n"
       "  sidelight compare scenes/showcase.toml -o out/showcase\n"
-      "  sidelight compare scenes/shadows.toml -o out/shadows -r 320x240 --spp 9");
+      "  sidelight compare scenes/06-shadows.toml -o out/shadows -r 320x240 --spp 9");
   verb->callback([flags, &exit_code] { exit_code = run_compare(*flags); });
 }
 

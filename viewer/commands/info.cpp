@@ -72,7 +72,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   verb->footer(
       "Examples:\n"
       "  sidelight info scenes/showcase.toml\n"
-      "  sidelight info scenes/mirrors.toml --depth 3");
+      "  sidelight info scenes/07-mirrors.toml --depth 3");
   verb->callback([flags, &exit_code] { exit_code = run_info(*flags); });
 }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "common/error.h"
 #include "viewer/commands/commands.h"
@@ -39,6 +40,7 @@ int run(int argc, char** argv) {
 
   try {
     app.parse(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw OutputError("standard output: cannot write");
     return exit_code;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);   // --help, --version
@@ -46,7 +48,8 @@ int run(int argc, char** argv) {
   } catch (const UsageError& error) {
     return complain(kUsage, printable(error.what(), 2000));
   } catch (const InputError& error) {
-    return complain(kInput, error.what());
+    fmt::print(stderr, "{}\n", error.what());   // begins with file:line:column, where editors look for it
+    return kInput;
   } catch (const std::bad_alloc&) {
     return complain(kInput, "not enough memory for this scene and size");
   } catch (const NumericalFault& error) {
@@ -57,6 +60,9 @@ int run(int argc, char** argv) {
     return complain(kOutput, printable(error.what(), 2000));
   } catch (const Interrupted& error) {
     return complain(kInterrupted, error.what());
+  } catch (const std::system_error& error) {
+    if (!std::ferror(stdout)) throw;
+    return complain(kOutput, fmt::format("standard output: {}", error.what()));
   }
 }
 

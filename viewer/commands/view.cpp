@@ -46,7 +46,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
       "Keys: wheel zooms, drag moves, 0 shows all, space swaps the two in place, Esc closes.\n"
       "Examples:\n"
       "  sidelight view scenes/showcase.toml\n"
-      "  sidelight view scenes/mirrors.toml -r 800x600 --depth 3");
+      "  sidelight view scenes/07-mirrors.toml -r 800x600 --depth 3");
   verb->callback([flags, &exit_code] { exit_code = run_view(*flags); });
 }
 

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// Rays and spheres, rays and planes, against the same rays in 113-bit arithmetic: far and huge spheres, tangents,
+// origins inside and on the surface, the horizon of a plane.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "common/model/visibility.h"
+#include "common/scene/camera.h"
+#include "tests/support/scenes.h"
+#include "tests/support/wide.h"
+#include "tests/tier.h"
+
+using namespace sidelight;
+using namespace sidelight::test;
+
+namespace {
+
+constexpr double kEps = 0x1p-52, kFloatEps = 0x1p-23;
+
+// The roots of |o + t d - c| = r in 113 bits: good to 1e-18 of t even from 1e7 radii away.
+struct ExactRoots {
+  bool met = false;
+  Quad low = 0, high = 0;
+  Quad first() const { return low > 0 ? low : high; }  // along a ray
+};
+ExactRoots exact_roots(const Sphere& sphere, const Ray& ray) {
+  const QuadVec f = quad(ray.origin) - quad(sphere.center), d = quad(ray.direction);
+  const Quad dd = dot(d, d), b = -dot(f, d), r = sphere.radius;
+  const QuadVec nearest = f + (b / dd) * d;
+  const Quad discriminant = r * r - dot(nearest, nearest);
+  if (discriminant < 0) return {};
+  const Quad half_chord = square_root(discriminant / dd);
+  return {true, b / dd - half_chord, b / dd + half_chord};
+}
+
+Hit first_hit(const Scene& scene, const Ray& ray, const Hit& after = kRayStart) {
+  SignCounts counts;
+  return intersect(scene, 0, ray, after, counts);
+}
+
+glm::dvec3 across(const glm::dvec3& v, Random& random) {
+  return glm::normalize(glm::cross(v, random.direction()));
+}
+
+const Sphere kUnit{};  // around the origin
+
+}  // namespace
+
+// SPH-1
+TEST_CASE("a sphere is never missed from up to 1e7 radii, and its depth rounds right to float") {
+  Random random(9);
+  const Scene scene = scene_of(kUnit);
+  for (double distance = 10; distance <= 1e7; distance *= 10) {
+    std::uint64_t missed = 0, inexact = 0;
+    for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
+      const glm::dvec3 origin = distance * random.direction();
+      const Ray ray{origin, 0.999 * random.uniform() * across(origin, random) - origin};
+      const Hit hit = first_hit(scene, ray);
+      const ExactRoots roots = exact_roots(kUnit, ray);
+      missed += !roots.met || !hit.found();
+      inexact += !(magnitude(hit.t - roots.low) <= 0.5 * kFloatEps * roots.low);
+    }
+    CAPTURE(distance);
+    CHECK(missed == 0);
+    CHECK(inexact == 0);
+  }
+}
+
+// SPH-3
+TEST_CASE("a huge sphere serves as the ground") {
+  Random random(3);
+  for (const double radius : {1e2, 1e4, 1e6}) {
+    const Sphere ground{{0, -radius, 0}, radius, 0};
+    const Scene scene = scene_of(ground);
+    std::uint64_t missed = 0, inexact = 0;
+    for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
+      const double away = random.uniform(1, 100), around = random.uniform(0, 6.28);
+      const glm::dvec3 target{away * std::cos(around), std::sqrt(radius * radius - away * away) - radius,
+                              away * std::sin(around)};
+      const Ray ray{{0, 1.7, 0}, target - glm::dvec3(0, 1.7, 0)};
+      const ExactRoots roots = exact_roots(ground, ray);
+      if (!roots.met) continue;  // the edge of a small world, seen from above
+      const Hit hit = first_hit(scene, ray);
+      missed += !hit.found();
+      inexact += !(magnitude(hit.t - roots.low) <= kFloatEps * roots.low);
+    }
+    CAPTURE(radius);
+    CHECK(missed == 0);
+    CHECK(inexact == 0);
+  }
+}
+
+// SPH-4
+TEST_CASE("grazing rays hit and miss as the exact discriminant says") {
+  Random random(4);
+  const Scene scene = scene_of(kUnit);
+  std::uint64_t wrong = 0, hits = 0, misses = 0;
+  for (const double width : {1e-2, 1e-4, 1e-6})
+    for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
+      const glm::dvec3 direction = random.direction();
+      const double impact = 1 + width * random.uniform(-1, 1);
+      const Ray ray{impact * across(direction, random) - 10.0 * direction, direction};
+      const bool met = exact_roots(kUnit, ray).met;
+      wrong += first_hit(scene, ray).found() != met;
+      ++(met ? hits : misses);
+    }
+  CHECK(wrong == 0);
+  CHECK(hits > 0);
+  CHECK(misses > 0);
+}
+
+TEST_CASE("an exact tangent touches once, at its point") {
+  const Scene scene = scene_of(kUnit);
+  const Ray ray{{-4, 1, 0}, {1, 0, 0}};
+  CHECK(first_hit(scene, ray) == Hit{4, 0});
+  CHECK_FALSE(first_hit(scene, ray, {4, 0}).found());
+  CHECK_FALSE(first_hit(scene, {{-4, std::nextafter(1.0, 2.0), 0}, {1, 0, 0}}).found());
+}
+
+// SPH-5
+TEST_CASE("from the centre the sphere is one radius away, whatever the direction's length") {
+  Random random(5);
+  std::uint64_t wrong = 0;
+  for (std::uint64_t left = tier_count("rays_per_case") / 8; left > 0; --left) {
+    const double radius = random.log_uniform(1e-3, 1e3);
+    const Ray ray{{1, 2, 3}, random.direction()};
+    const Hit hit = first_hit(scene_of(Sphere{{1, 2, 3}, radius, 0}), ray);
+    const Quad exact = radius / length(quad(ray.direction));
+    wrong +=
+        !(magnitude(hit.t - exact) <= 2 * kEps * exact);  // d.d: 3 roundings of u, halved; sqrt, q, quotient
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("a ray that starts on a sphere leaves it, crosses it or touches it") {
+  const Scene scene = scene_of(kUnit);
+  const glm::dvec3 start{1, 0, 0};
+  CHECK_FALSE(first_hit(scene, {start, {1, 0, 0}}).found());
+  CHECK_FALSE(first_hit(scene, {start, {0.6, 0.8, 0}}).found());
+  CHECK_FALSE(first_hit(scene, {start, {0, 1, 0}}).found());      // tangent, at t = 0
+  CHECK(first_hit(scene, {start, {-1, 0, 0}}) == Hit{2, 0});      // t = 2 r cos
+  CHECK(first_hit(scene, {start, {-3, 4, 0}}).t == 2 * 0.6 / 5);  // cos = 3/5, |d| = 5
+}
+
+TEST_CASE("from inside, the far side is seen, and the ray's length scales its depth exactly") {
+  Random random(6);
+  const Scene scene = scene_of(kUnit);
+  std::uint64_t wrong = 0, rescaled = 0;
+  for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
+    const Ray ray{std::cbrt(random.uniform()) * random.direction(), random.direction()};
+    const Quad exact = exact_roots(kUnit, ray).high;
+    const Hit hit = first_hit(scene, ray);
+    wrong += !(magnitude(hit.t - exact) <= 16 * kEps * (exact + 1));
+    const double scale = std::exp2(static_cast<double>(random.integer(20)));
+    rescaled += first_hit(scene, {ray.origin, scale * ray.direction}).t * scale != hit.t;
+  }
+  CHECK(wrong == 0);
+  CHECK(rescaled == 0);
+}
+
+TEST_CASE("a sphere behind the origin is not seen, both sides of one in front are") {
+  const Scene scene = scene_of(kUnit);
+  CHECK_FALSE(first_hit(scene, {{0, 0, 3}, {0, 0, 1}}).found());
+  const Ray ray{{0, 0, 3}, {0, 0, -1}};
+  CHECK(first_hit(scene, ray) == Hit{2, 0});
+  CHECK(first_hit(scene, ray, {2, 0}) == Hit{4, 0});
+  CHECK_FALSE(first_hit(scene, ray, {4, 0}).found());
+}
+
+// PLN-1
+TEST_CASE("a plane is met at -o.y/d.y, and not at all by rays that are parallel, in it or leaving it") {
+  const Scene scene = scene_of(Plane{{0, 0, 0}, {0, 1, 0}, 0});
+  for (const double slope : {0.0, -0.0, 1e-45, 1e-8, 1.0})
+    CHECK_FALSE(first_hit(scene, {{0, 1, 0}, {1, slope, 0}}).found());
+  for (const double slope : {-1.0, -1e-8, -1e-20, -1e-38, -1e-45, -1e-90}) {
+    const Hit hit = first_hit(scene, {{0, 1, 0}, {1, slope, 0}});
+    CHECK(hit.found());
+    CHECK(std::abs(hit.t * -slope - 1) <= 4 * kEps);
+  }
+  for (const double slope : {-1.0, -0.0, 0.0, 1.0})
+    CHECK_FALSE(first_hit(scene, {{5, 0, 5}, {1, slope, 0}}).found());
+  // 1e15 / 1e-300 is beyond double; make_ray's zeroes keep such slopes out, and no hit is ever at infinity
+  CHECK_FALSE(first_hit(scene, {{0, 1e15, 0}, {1, -1e-300, 0}}).found());
+}
+
+TEST_CASE("the depth of any plane is within four roundings of its condition number") {
+  Random random(7);
+  std::uint64_t wrong = 0;
+  for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
+    const Plane plane{random.in_box(10), random.direction(), 0};
+    const Scene scene = scene_of(plane);
+    const Ray ray{random.in_box(10), random.direction()};
+    const QuadVec n = quad(scene.planes[0].normal);
+    const QuadVec apart = quad(plane.point) - quad(ray.origin);
+    const Quad above = dot(n, apart), below = dot(n, quad(ray.direction));
+    const Hit hit = first_hit(scene, ray);
+    wrong += hit.found() != (above / below > 0);
+    if (!hit.found()) continue;
+    // Each dot product: 3 u of the sum of magnitudes, at most |n||.|; the difference and the quotient u each.
+    const Quad condition = length(apart) / magnitude(above) + length(quad(ray.direction)) / magnitude(below);
+    wrong += !(magnitude(hit.t - above / below) <= 4 * kEps / 2 * (condition + 1) * hit.t);
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("a horizon between two rows of pixels is sharp") {
+  const Scene scene = scene_of(Plane{{0, 0, 0}, {0, 1, 0}, 0});
+  CameraSettings settings;
+  settings.eye = {0, 1, 0};
+  settings.look_at = {0, 1, -1};
+  const Camera camera = make_camera(settings, 640, 512, 1);
+  std::uint64_t wrong = 0;
+  for (int Y = 0; Y < camera.rows(); ++Y)
+    for (int X = 0; X < camera.columns(); ++X)
+      wrong += first_hit(scene, {camera.eye, camera.direction(X, Y)}).found() != (Y >= camera.rows() / 2);
+  CHECK(wrong == 0);
+}

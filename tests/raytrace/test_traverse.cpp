@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// The tracer's questions: nearest(), blocker() and hits_between() answer as brute force does, bit for bit, ties and
+// duplicates included (BVH-2, BVH-5).
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "raytrace/prepared.h"
+#include "tests/support/scenes.h"
+#include "tests/tier.h"
+
+using namespace sidelight;
+using namespace sidelight::test;
+using raytrace::Prepared;
+
+namespace {
+
+// BVH-5: coordinates on a grid of 2^-6, so that exact ties are common; 5 % of the triangles twice.
+Scene scene_on_grid(Random& random) {
+  const auto point = [&] { return 0x1p-6 * random.on_grid(64); };
+  Scene scene = empty_scene();
+  std::vector<glm::dvec3> positions;
+  std::vector<Face> faces;
+  const std::uint32_t triangles = 1 + random.below(400);
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    const glm::dvec3 at = point();
+    for (int k = 0; k < 3; ++k) positions.push_back(at + 0x1p-6 * random.on_grid(12));
+    faces.push_back({first, first + 1, first + 2});
+    if (random.below(20) == 0) faces.push_back(faces[random.below(static_cast<std::uint32_t>(faces.size()))]);
+  }
+  add_mesh(scene, mesh_of(positions, faces), {}, {});
+  for (std::uint32_t left = random.below(50); left > 0; --left)
+    add_sphere(scene, {point(), 0x1p-6 * (1 + random.below(16)), 0}, {});
+  for (std::uint32_t left = random.below(4); left > 0; --left)
+    add_plane(scene, {point(), {left == 1, left == 2, left == 3}, 0}, {});
+  return scene;
+}
+
+// Half of them aimed at a vertex or at the middle of an edge, from the grid.
+Ray ray_on_grid(const Scene& scene, Random& random) {
+  const glm::dvec3 origin = 0x1p-6 * random.on_grid(96);
+  glm::dvec3 direction = 0x1p-6 * random.on_grid(64);
+  if (random.uniform() < 0.5) {
+    const auto& v = scene.triangles[random.below(static_cast<std::uint32_t>(scene.triangles.size()))].vertex;
+    direction = 0.5 * (scene.positions[v[0]] + scene.positions[v[random.below(2)]]) - origin;
+  }
+  if (direction == glm::dvec3(0)) direction = {0, 0, 1};
+  return {origin, direction};
+}
+
+// A hit that intersect() gives for its primitive, or none.
+bool is_hit_of(const Scene& scene, const Ray& ray, const Hit& hit) {
+  SignCounts counts;
+  return !hit.found() || intersect(scene, hit.primitive, ray, kRayStart, counts) == hit;
+}
+
+}  // namespace
+
+// BVH-2
+TEST_CASE("the sign of a zero in a direction changes no hit") {
+  const Scene scene = scene_of(star_sphere(24, 24, 1, 2));
+  const Prepared prepared(scene);
+  SignCounts counts;
+  std::uint64_t differing = 0, hits = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = -32; i <= 32; ++i)
+      for (int k = -32; k <= 32; ++k) {
+        glm::dvec3 origin(0), plus(0.0), minus(-0.0);
+        origin[axis] = 4;
+        origin[(axis + 1) % 3] = i / 32.0;
+        origin[(axis + 2) % 3] = k / 32.0;
+        plus[axis] = minus[axis] = -1;
+        const Hit hit = nearest(prepared, {origin, plus}, kRayStart, counts);
+        differing += nearest(prepared, {origin, minus}, kRayStart, counts) != hit;
+        hits += hit.found();
+      }
+  CHECK(differing == 0);
+  CHECK(hits > 0);
+}
+
+// BVH-5
+TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and blocker agrees with it") {
+  Random random(5);
+  std::uint64_t differing = 0, wrong_blocker = 0, ties = 0;
+  const std::uint64_t scenes = 40, rays = 1 + tier_count("rays_per_case") / (10 * scenes);
+  for (std::uint64_t i = 0; i < scenes; ++i) {
+    const Scene scene = scene_on_grid(random);
+    const Prepared prepared(scene);
+    SignCounts counts;
+    for (std::uint64_t left = rays; left > 0; --left) {
+      const Ray ray = ray_on_grid(scene, random);
+      const Hit expected = nearest_of_all(scene, ray, kRayStart, counts);
+      const Hit second = nearest_of_all(scene, ray, expected, counts);
+      differing += nearest(prepared, ray, kRayStart, counts) != expected;
+      differing += expected.found() && nearest(prepared, ray, expected, counts) != second;
+      ties += expected.found() && expected.t == second.t;
+      const Hit in_the_sun = blocker(prepared, ray, nullptr, counts);
+      wrong_blocker += in_the_sun.found() != expected.found() || !is_hit_of(scene, ray, in_the_sun);
+
+      const glm::dvec3 light = ray.origin + ray.direction;  // exact, on the grid
+      bool before = false;
+      for (std::uint32_t p = 0; p < scene.primitive_object.size() && !before; ++p) {
+        const Hit hit = intersect(scene, p, ray, kRayStart, counts);
+        before = hit.found() && before_light(scene, hit, ray, light, counts);
+      }
+      const Hit in_the_light = blocker(prepared, ray, &light, counts);
+      wrong_blocker += in_the_light.found() != before || !is_hit_of(scene, ray, in_the_light);
+    }
+  }
+  CHECK(differing == 0);
+  CHECK(wrong_blocker == 0);
+  CHECK(ties > 0);
+}
+
+TEST_CASE("hits_between is every hit in the interval, in order, those at its ends included") {
+  Random random(6);
+  std::uint64_t differing = 0, found = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Scene scene = scene_on_grid(random);
+    const Prepared prepared(scene);
+    SignCounts counts;
+    for (int left = 20; left > 0; --left) {
+      const Ray ray = ray_on_grid(scene, random);
+      std::vector<Hit> all;
+      for (Hit hit = nearest_of_all(scene, ray, kRayStart, counts); hit.found();
+           hit = nearest_of_all(scene, ray, hit, counts))
+        all.push_back(hit);
+      if (all.size() < 2) continue;
+      const std::size_t first = random.below(static_cast<std::uint32_t>(all.size()));
+      const double last_t = all[first + random.below(static_cast<std::uint32_t>(all.size() - first))].t;
+      std::vector<Hit> expected;
+      for (std::size_t k = first; k < all.size() && all[k].t <= last_t; ++k) expected.push_back(all[k]);
+      differing += hits_between(prepared, ray, all[first], last_t, counts) != expected;
+      found += expected.size();
+    }
+  }
+  CHECK(differing == 0);
+  CHECK(found > 0);
+}
+
+TEST_CASE("what casts no shadow blocks nothing") {
+  Scene scene = scene_of(Sphere{{0, 0, -5}, 1, 0});
+  scene.materials[0].casts_shadow = false;
+  const Prepared prepared(scene);
+  const Ray ray{{0, 0, 0}, {0, 0, -1}};
+  SignCounts counts;
+  CHECK_FALSE(blocker(prepared, ray, nullptr, counts).found());
+  scene.materials[0].casts_shadow = true;
+  CHECK(blocker(prepared, ray, nullptr, counts) == Hit{4, 0});
+}
+
+TEST_CASE("an empty scene, and one of planes or degenerate triangles alone, is traversed too") {
+  SignCounts counts;
+  const Ray down{{0, 1, 0}, {0, -1, 0}};
+  const Scene nothing = empty_scene(), flat = scene_of_triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0});
+  const Scene floor = scene_of(Plane{{0, 0, 0}, {0, 1, 0}, 0});
+  for (const Scene* scene : {&nothing, &flat}) {
+    CHECK_FALSE(nearest(Prepared(*scene), down, kRayStart, counts).found());
+    CHECK_FALSE(blocker(Prepared(*scene), down, nullptr, counts).found());
+    CHECK(hits_between(Prepared(*scene), down, {0.5, 0}, std::numeric_limits<double>::infinity(), counts)
+              .empty());
+  }
+  CHECK(nearest(Prepared(floor), down, kRayStart, counts) == Hit{1, 0});
+}

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: MIT
+// add_sphere, add_plane and add_mesh: numbering, ranges, transforms, winding, closedness and media.
+#include "common/scene/build.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+
+#include "common/scene/shapes.h"
+#include "common/scene/unit_vector.h"
+
+using namespace sidelight;
+using glm::dmat3;
+using glm::dvec3;
+
+namespace {
+
+const SourceLocation kHere{"s.toml", 7, 3};
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Scene scene_with(const std::vector<double>& refract_iors = {}) {
+  Scene scene;
+  add_material(scene, {});
+  for (const double ior : refract_iors) {
+    Material glass;
+    glass.refract = dvec3(0, 0, 0.5);
+    glass.ior = ior;
+    add_material(scene, glass);
+  }
+  return scene;
+}
+
+PolygonMesh mesh_of(std::vector<dvec3> positions, const std::vector<std::vector<std::uint32_t>>& faces) {
+  PolygonMesh mesh;
+  mesh.positions = std::move(positions);
+  for (const auto& numbers : faces) {
+    PolygonMesh::Face face;
+    face.first = static_cast<std::uint32_t>(mesh.corners.size());
+    face.count = static_cast<std::uint32_t>(numbers.size());
+    for (const std::uint32_t number : numbers) mesh.corners.push_back({number, kNone});
+    mesh.faces.push_back(face);
+  }
+  return mesh;
+}
+
+const std::vector<dvec3> kCorners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const std::vector<std::vector<std::uint32_t>> kTetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+
+Scene built(const PolygonMesh& mesh, const Transform& transform = {}) {
+  Scene scene = scene_with();
+  add_mesh(scene, mesh, transform, kHere);
+  return scene;
+}
+
+bool is_closed(const std::vector<dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces) {
+  return built(mesh_of(positions, faces)).objects[0].closed;
+}
+
+double volume(const Scene& scene) {
+  double sum = 0;
+  for (const Triangle& t : scene.triangles)
+    sum += glm::dot(scene.positions[t.vertex[0]],
+                    glm::cross(scene.positions[t.vertex[1]], scene.positions[t.vertex[2]]));
+  return sum / 6;
+}
+
+dmat3 diagonal(double x, double y, double z) { return {x, 0, 0, 0, y, 0, 0, 0, z}; }
+
+std::string mistake(const PolygonMesh& mesh, const Transform& transform = {}) {
+  try {
+    built(mesh, transform);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("build: objects and primitives are numbered in the order they are added") {
+  Scene scene = scene_with();
+  add_sphere(scene, {{1, 2, 3}, 4, 0}, kHere);
+  add_mesh(scene, mesh_of(kCorners, kTetrahedron), {}, kHere);
+  add_plane(scene, {{0, 0, 0}, {0, 2, 0}, 0}, {"s.toml", 9, 1});
+  add_mesh(scene, make_box({1, 1, 1}), {}, kHere);
+  add_sphere(scene, {{0, 0, 0}, 1, 0}, kHere);
+
+  const std::vector<std::uint32_t> first{0, 1, 5, 6, 18}, count{1, 4, 1, 12, 1}, index{0, 0, 0, 4, 1};
+  REQUIRE(scene.objects.size() == 5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    CHECK(scene.objects[i].first_primitive == first[i]);
+    CHECK(scene.objects[i].count == count[i]);
+    CHECK(scene.objects[i].first == index[i]);
+  }
+  REQUIRE(scene.primitive_object.size() == 19);
+  CHECK(primitive_ref(scene, 10).index == 8);
+  CHECK(scene.triangles[4].vertex[0] >= 4);  // the box's vertices come after the tetrahedron's
+  CHECK(scene.objects[2].where.line == 9);
+  CHECK(scene.planes[0].normal == dvec3(0, 1, 0));
+}
+
+TEST_CASE("build: positions and lengths below 1e-30 are 0, beyond 1e15 a mistake") {
+  Scene scene = scene_with();
+  add_sphere(scene, {{-0.0, 9e-31, 1e15}, 1e-30, 0}, kHere);
+  CHECK(scene.spheres[0].center == dvec3(0, 0, 1e15));
+  CHECK_FALSE(std::signbit(scene.spheres[0].center.x));
+  for (const double radius : {0.0, -1.0, 9e-31, 1.1e15, kInfinity, std::nan("")})
+    CHECK_THROWS_AS(add_sphere(scene, {{0, 0, 0}, radius, 0}, kHere), InputError);
+  for (const double bad : {1.1e15, -kInfinity, std::nan("")}) {
+    CHECK_THROWS_AS(add_sphere(scene, {{0, bad, 0}, 1, 0}, kHere), InputError);
+    CHECK_THROWS_AS(add_plane(scene, {{0, 0, bad}, {0, 1, 0}, 0}, kHere), InputError);
+    CHECK_THROWS_AS(built(mesh_of({{0, 0, 0}, {bad, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})), InputError);
+  }
+  CHECK(scene.objects.size() == 1);  // what is refused leaves nothing behind
+
+  const PolygonMesh mesh = mesh_of({{0, 0, 0}, {1e14, 0, 0}, {0, 1e-31, 0}}, {{0, 1, 2}});
+  CHECK(built(mesh).positions[2] == dvec3(0, 0, 0));
+  CHECK(mistake(mesh, {diagonal(11, 1, 1), dvec3(0)}) ==
+        "s.toml:7:3: vertex 2 (of the mesh, from 1) is 1.1e+15, expected at most 1e15 in magnitude");
+  CHECK(mistake(mesh, {diagonal(std::nan(""), 1, 1), dvec3(0)}) != "");
+}
+
+TEST_CASE("build: plane normals of any length, and the same bits when scaled by powers of two") {
+  const dvec3 normal(0.3, -1.7, 0.001);
+  Scene scene = scene_with();
+  for (const int k : {0, -900, -60, 1, 60, 900})
+    add_plane(scene,
+              {{0, 0, 0}, {std::ldexp(normal.x, k), std::ldexp(normal.y, k), std::ldexp(normal.z, k)}, 0},
+              kHere);
+  for (const Plane& plane : scene.planes) CHECK(plane.normal == scene.planes[0].normal);
+  CHECK(glm::length(scene.planes[0].normal) == doctest::Approx(1).epsilon(1e-15));
+  for (const dvec3& n : {dvec3(5e-324, 0, 0), dvec3(0, 1.7e308, 1.7e308), dvec3(-1e-320, 1e-320, 0)}) {
+    add_plane(scene, {{0, 0, 0}, n, 0}, kHere);
+    CHECK(glm::length(scene.planes.back().normal) == doctest::Approx(1).epsilon(1e-15));
+  }
+  for (const dvec3& n : {dvec3(0), dvec3(1, kInfinity, 0), dvec3(std::nan(""), 1, 0)})
+    CHECK_THROWS_AS(add_plane(scene, {{0, 0, 0}, n, 0}, kHere), InputError);
+}
+
+TEST_CASE("build: vertex normals are unit, zero stays zero, scaling by 2^k changes no bit") {
+  PolygonMesh mesh = mesh_of(kCorners, {{0, 1, 2}});
+  const dvec3 n(0.1, 0.7, -3);
+  for (const int k : {0, -60, 60, -1000, 1000})
+    mesh.normals.push_back({std::ldexp(n.x, k), std::ldexp(n.y, k), std::ldexp(n.z, k)});
+  mesh.normals.push_back(dvec3(0));
+  for (std::uint32_t k = 0; k < 3; ++k) mesh.corners[k].normal = k + 3;
+  Transform transform;
+  transform.linear = {1, 2, 3, 0, 1, 4, 5, 6, 0};
+  const Scene scene = built(mesh, transform);
+  for (std::size_t i = 1; i < 5; ++i) CHECK(scene.normals[i] == scene.normals[0]);
+  CHECK(glm::length(scene.normals[0]) == doctest::Approx(1).epsilon(1e-15));
+  CHECK(scene.normals[5] == dvec3(0));
+  CHECK(scene.triangles[0].normal == std::array<std::uint32_t, 3>{3, 4, 5});
+  for (const int k : {-300, 40}) {
+    Transform scaled = transform;
+    scaled.linear *= std::ldexp(1.0, k);
+    PolygonMesh far = mesh;
+    for (dvec3& p : far.positions) p *= std::ldexp(1.0, -k);
+    CHECK(built(far, scaled).normals == scene.normals);
+  }
+}
+
+TEST_CASE("build: a second mesh has vertices and normals of its own") {
+  PolygonMesh mesh = mesh_of(kCorners, {{0, 1, 2}});
+  mesh.normals = {{0, 0, 1}};
+  for (auto& corner : mesh.corners) corner.normal = 0;
+  Scene scene = scene_with();
+  add_mesh(scene, mesh, {}, kHere);
+  mesh.normals = {{0, 1, 0}};
+  add_mesh(scene, mesh, {dmat3(1), dvec3(5)}, kHere);
+  CHECK(scene.triangles[1].vertex == std::array<std::uint32_t, 3>{4, 5, 6});
+  CHECK(scene.positions[4] == dvec3(5));
+  CHECK(scene.normals[scene.triangles[1].normal[2]] == dvec3(0, 1, 0));
+}
+
+TEST_CASE("build: normals stay square to transformed tangents") {
+  std::uint64_t state = 5;
+  const auto random = [&] {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(state >> 11) * 0x1p-52 - 1;
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const double stretch = std::exp2(10 * random());
+    const double angle = 3 * random();
+    const dmat3 shear(1, 0.5, 0, 0, 1, 0, 0, 0, 1);
+    const dmat3 turn(std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle));
+    const dmat3 m = turn * shear * diagonal(1, i % 2 ? 1 : -1, stretch);
+    const dvec3 n(random(), random(), random());
+    const dvec3 tangent = glm::cross(n, dvec3(random(), random(), random()));
+    PolygonMesh mesh = mesh_of({}, {});
+    mesh.normals = {n};
+    const dvec3 mapped = built(mesh, {m, dvec3(0)}).normals[0];
+    const dvec3 along = m * tangent;
+    CHECK(std::abs(glm::dot(mapped, along)) <= 8 * 0x1p-23 * glm::length(along));
+    CHECK(glm::dot(mapped, m * n) > 0);  // on the side it was
+  }
+}
+
+TEST_CASE("build: singular maps squash normals without a NaN") {
+  PolygonMesh mesh = mesh_of(kCorners, {{0, 1, 3}});
+  mesh.normals = {{0, 1, 0}, {1, 0, 0}, {1, 1, 1}};
+  const Scene flat = built(mesh, {diagonal(1, 0, 1), dvec3(0)});
+  CHECK(flat.normals[0] == dvec3(0, 1, 0));
+  CHECK(flat.normals[1] == dvec3(0));
+  CHECK(flat.normals[2] == dvec3(0, 1, 0));
+  const Scene point = built(mesh, {dmat3(0.0), dvec3(1, 2, 3)});
+  CHECK(point.normals[0] == dvec3(0));
+  CHECK(point.triangles[0].degenerate);
+}
+
+TEST_CASE("build: a mirror image keeps its outside") {
+  // Open: the winding is reversed, so that the face's normal stays on its vertex normals' side.
+  PolygonMesh sheet = mesh_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
+  sheet.normals = {{0, 0, 1}};
+  for (auto& corner : sheet.corners) corner.normal = 0;
+  for (const dmat3& m : {diagonal(-1, 1, 1), diagonal(1, -1, 1), diagonal(1, 1, -1), diagonal(-1, -1, -1)}) {
+    const Scene scene = built(sheet, {m, dvec3(0)});
+    const Triangle& t = scene.triangles[0];
+    const dvec3 n = glm::cross(scene.positions[t.vertex[1]] - scene.positions[t.vertex[0]],
+                               scene.positions[t.vertex[2]] - scene.positions[t.vertex[0]]);
+    CHECK(glm::dot(n, scene.normals[0]) > 0);
+    CHECK(glm::dot(n, m * dvec3(0, 0, 1)) > 0);
+  }
+  // Closed: the volume is positive either way.
+  CHECK(volume(built(mesh_of(kCorners, kTetrahedron))) == doctest::Approx(1.0 / 6));
+  CHECK(volume(built(mesh_of(kCorners, kTetrahedron), {diagonal(-1, 1, 1), dvec3(5)})) ==
+        doctest::Approx(1.0 / 6));
+}
+
+TEST_CASE("build: a closed mesh is turned outward, its triangles keep their numbers") {
+  auto inward = kTetrahedron;
+  for (auto& face : inward) std::swap(face[1], face[2]);
+  PolygonMesh mesh = mesh_of(kCorners, inward);
+  mesh.normals = kCorners;
+  for (auto& corner : mesh.corners) corner.normal = corner.position;
+  for (const double far : {0.0, 1e6, 1e12}) {
+    CAPTURE(far);
+    const Scene scene = built(mesh, {dmat3(1), dvec3(far)});
+    CHECK(scene.objects[0].closed);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::array<std::uint32_t, 3> expected{kTetrahedron[i][0], kTetrahedron[i][1], kTetrahedron[i][2]};
+      CHECK(scene.triangles[i].vertex == expected);
+      CHECK(scene.triangles[i].normal == expected);
+    }
+  }
+  inward.pop_back();  // open: as the file has it
+  CHECK(built(mesh_of(kCorners, inward)).triangles[0].vertex == std::array<std::uint32_t, 3>{0, 1, 2});
+}
+
+TEST_CASE("build: closed means each directed edge once, with its reverse, by position") {
+  CHECK(is_closed(kCorners, kTetrahedron));
+  CHECK_FALSE(is_closed(kCorners, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}}));
+  CHECK_FALSE(is_closed(kCorners, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 3, 0}, {2, 3, 0}}));
+  CHECK_FALSE(is_closed(kCorners, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}}));  // one face turned over
+  auto twice = kTetrahedron;
+  twice.insert(twice.end(), kTetrahedron.begin(), kTetrahedron.end());
+  CHECK_FALSE(is_closed(kCorners, twice));
+  CHECK_FALSE(is_closed({}, {}));
+
+  // Each face with vertices of its own.
+  std::vector<dvec3> own;
+  std::vector<std::vector<std::uint32_t>> faces;
+  for (const auto& face : kTetrahedron) {
+    const auto first = static_cast<std::uint32_t>(own.size());
+    faces.push_back({first, first + 1, first + 2});
+    for (const std::uint32_t k : face) own.push_back(kCorners[k]);
+  }
+  CHECK(is_closed(own, faces));
+  own[0].x = -0.0;
+  CHECK(is_closed(own, faces));
+  own[0].x = 1e-29;
+  CHECK_FALSE(is_closed(own, faces));
+}
+
+TEST_CASE("build: degenerate triangles are flagged, and a mesh that closes with them is closed") {
+  // (0 2 1) with its edge 0-1 divided at 4: a flat triangle joins the halves to the whole edge of (0 1 3).
+  std::vector<dvec3> corners = kCorners;
+  corners.push_back({0.5, 0, 0});
+  corners.push_back({1, 0, 0});  // 5, the place of 1
+  const std::vector<std::vector<std::uint32_t>> divided{{0, 2, 4}, {4, 2, 1}, {0, 4, 1},
+                                                        {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const Scene scene = built(mesh_of(corners, divided));
+  CHECK(scene.objects[0].closed);
+  for (std::size_t i = 0; i < 6; ++i) CHECK(scene.triangles[i].degenerate == (i == 2));
+  CHECK_FALSE(is_closed(corners, {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}));
+
+  for (const auto& needle :
+       std::vector<std::vector<std::uint32_t>>{{0, 1, 5}, {1, 5, 0}, {1, 1, 2}, {3, 3, 3}}) {
+    auto faces = kTetrahedron;
+    faces.push_back(needle);
+    const Scene with = built(mesh_of(corners, faces));
+    CHECK(with.objects[0].closed);
+    CHECK(with.triangles[4].degenerate);
+    CHECK(with.triangles.size() == 5);
+  }
+}
+
+TEST_CASE("build: degeneracy is exact (TRI-4)") {
+  std::uint64_t state = 9;
+  const auto random = [&] {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(state >> 44);  // below 2^20
+  };
+  for (int i = 0; i < 3000; ++i) {
+    const dvec3 a(random(), random(), random()), b(random(), random(), random());
+    if (a == b) continue;
+    const double k = i % 3 == 0 ? 2 : i % 3 == 1 ? 3 : -1;
+    dvec3 c = a + k * (b - a);
+    CHECK(built(mesh_of({a, b, c}, {{0, 1, 2}})).triangles[0].degenerate);
+    c[i % 2] = std::nextafter(c[i % 2], kInfinity);
+    // Off the line by one ulp, unless the line runs along that axis.
+    const bool along = glm::length(b - a) == std::abs(b[i % 2] - a[i % 2]);
+    CHECK(built(mesh_of({a, b, c}, {{0, 1, 2}})).triangles[0].degenerate == along);
+  }
+  const Scene pbrt = built(mesh_of({{-1113.45459, -79.049614, -56.2431908},
+                                    {-1113.45459, -87.0922699, -56.2431908},
+                                    {-1113.45459, -79.2090149, -56.2431908}},
+                                   {{0, 1, 2}}));
+  CHECK(pbrt.triangles[0].degenerate);
+}
+
+TEST_CASE("build: solids and their index of refraction") {
+  Scene scene = scene_with({1.5, 1.33});
+  add_sphere(scene, {{0, 0, 0}, 1, 0}, kHere);
+  add_sphere(scene, {{0, 0, 0}, 1, 1}, kHere);
+  add_plane(scene, {{0, 0, 0}, {0, 1, 0}, 2}, kHere);
+  PolygonMesh mesh = mesh_of(kCorners, kTetrahedron);
+  add_mesh(scene, mesh, {}, kHere);
+  mesh.faces[1].material = 2;
+  mesh.faces[2].material = 2;
+  add_mesh(scene, mesh, {}, kHere);
+  CHECK(scene.warnings.empty());
+  mesh.faces[2].material = 1;
+  add_mesh(scene, mesh, {}, kHere);
+  mesh.faces.pop_back();
+  add_mesh(scene, mesh, {}, kHere);
+
+  const std::vector<bool> solid{false, true, true, false, true, true, false};
+  const std::vector<double> ior{1, 1.5, 1.33, 1, 1.33, 1.33, 1};
+  for (std::size_t i = 0; i < solid.size(); ++i) {
+    CAPTURE(i);
+    CHECK(scene.objects[i].solid == solid[i]);
+    CHECK(scene.objects[i].ior == ior[i]);
+  }
+  REQUIRE(scene.warnings.size() == 2);
+  CHECK(scene.warnings[0].find("s.toml:7:3: the mesh's materials have several indices of refraction") == 0);
+  CHECK(scene.warnings[1].find("s.toml:7:3: the mesh refracts but is not closed") == 0);
+  CHECK(scene.warnings[1].find("T = D") != std::string::npos);
+}
+
+TEST_CASE("build: counts beyond bounds are refused before memory is spent") {
+  PolygonMesh mesh = mesh_of({{0, 0, 0}}, {});
+  mesh.corners.resize(100'001);
+  PolygonMesh::Face face;
+  face.count = 100'001;
+  mesh.faces = {face};
+  CHECK(mistake(mesh) ==
+        "s.toml:7:3: the squares of the faces' corner counts add up to 10000200001, expected at most 1e+10");
+  mesh.faces.assign(42'951, face);
+  CHECK(mistake(mesh) == "s.toml:7:3: the scene reaches 4295057049 primitives, expected at most 4294967293");
+}
+
+TEST_CASE("build: a mesh without faces is an object without primitives") {
+  const Scene scene = built(mesh_of(kCorners, {}));
+  CHECK(scene.objects[0].count == 0);
+  CHECK_FALSE(scene.objects[0].closed);
+  CHECK(scene.primitive_object.empty());
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK(scene.warnings[0] == "s.toml:7:3: the mesh has no faces");
+}

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+// Triangulation of simple polygons with integer corners, checked in integers: the triangles' directed edges are the
+// polygon's plus pairs that cancel, all triangles turn the polygon's way, and their areas add up. Together that says
+// they tile it.
+#include "common/scene/triangulate.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+
+using namespace sidelight;
+using glm::dvec3;
+
+namespace {
+
+struct Point {
+  std::int64_t x = 0, y = 0;
+  bool operator==(const Point&) const = default;
+};
+using Polygon = std::vector<Point>;
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+// splitmix64, as in the hard cases' catalogue.
+struct Random {
+  std::uint64_t state;
+  explicit Random(std::uint64_t seed) : state(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}
+  std::uint64_t next() {
+    std::uint64_t z = state += 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+  }
+  std::int64_t between(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(next() % static_cast<std::uint64_t>(high - low + 1));
+  }
+};
+
+std::int64_t twice_area(const Point& a, const Point& b, const Point& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+int turn(const Point& a, const Point& b, const Point& c) {
+  const std::int64_t area = twice_area(a, b, c);
+  return area > 0 ? 1 : area < 0 ? -1 : 0;
+}
+
+std::int64_t twice_area(const Polygon& polygon) {
+  std::int64_t area = 0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    area += twice_area(polygon[0], polygon[i], polygon[i + 1]);
+  return area;
+}
+
+// --- Generators: simple polygons, counter-clockwise ---
+
+// Star-shaped around the origin: random points by angle, one a direction.
+Polygon star(Random& random, int corners, std::int64_t size) {
+  Polygon p{{size, 0}, {0, size}, {-size, 0}, {0, -size}};
+  for (int i = 0; i < corners; ++i) p.push_back({random.between(-size, size), random.between(-size, size)});
+  std::erase(p, Point{});
+  const auto lower = [](const Point& a) { return a.y < 0 || (a.y == 0 && a.x < 0); };
+  const auto cross = [](const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; };
+  const auto before = [&](const Point& a, const Point& b) {
+    return lower(a) != lower(b) ? lower(b) : cross(a, b) > 0;
+  };
+  std::sort(p.begin(), p.end(), before);
+  p.erase(std::unique(p.begin(), p.end(), [&](auto& a, auto& b) { return !before(a, b); }), p.end());
+  return p;
+}
+
+// Two chains over the same columns, above and below the x axis; flat stretches happen.
+Polygon two_chains(Random& random, int corners, std::int64_t height) {
+  Polygon p;
+  for (int i = 0; i <= corners; ++i) p.push_back({i, -random.between(1, height)});
+  for (int i = corners; i >= 0; --i) p.push_back({i, random.between(1, height)});
+  return p;
+}
+
+Polygon comb(Random& random, int teeth, std::int64_t length) {
+  Polygon p{{0, -1}, {2 * teeth, -1}};
+  for (int i = teeth; i > 0; --i) {
+    p.push_back({2 * i, random.between(1, length)});
+    p.push_back({2 * i - 1, 0});
+  }
+  p.push_back({0, random.between(1, length)});
+  return p;
+}
+
+// A corridor of width 1 of `turns` legs that winds inwards.
+Polygon spiral(Random&, int turns, std::int64_t) {
+  Polygon outer, inner;
+  const std::int64_t step[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  Point at{0, 0};
+  for (int i = 0; i < turns; ++i) {
+    const std::int64_t length = 2 * (turns - i) + 2;
+    const auto* s = step[i % 4];
+    const auto* left = step[(i + 1) % 4];
+    outer.push_back(at);
+    // The inner wall starts one to the left of and one along this leg.
+    inner.push_back({at.x + left[0] + (i > 0 ? s[0] : 0), at.y + left[1] + (i > 0 ? s[1] : 0)});
+    at = {at.x + length * s[0], at.y + length * s[1]};
+  }
+  const auto* left = step[turns % 4];
+  outer.push_back(at);
+  inner.push_back({at.x + left[0], at.y + left[1]});
+  outer.insert(outer.end(), inner.rbegin(), inner.rend());
+  return outer;
+}
+
+bool meet(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const auto on = [](const Point& p, const Point& q, const Point& r) {
+    return turn(p, q, r) == 0 && std::min(p.x, q.x) <= r.x && r.x <= std::max(p.x, q.x) &&
+           std::min(p.y, q.y) <= r.y && r.y <= std::max(p.y, q.y);
+  };
+  if (on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b)) return true;
+  return turn(a, b, c) != turn(a, b, d) && turn(c, d, a) != turn(c, d, b);
+}
+
+// Whether a new edge from corner `from` (i or i + 1) to `at`, in place of edge i, meets no other edge of the polygon.
+bool free_edge(const Polygon& p, std::size_t i, const Point& at, std::size_t from) {
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    const std::size_t l = (k + 1) % p.size();
+    if (k == i) continue;
+    const Point& end = p[from];
+    if (k == from || l == from) {  // a neighbour: may meet in the shared corner alone
+      const Point& other = k == from ? p[l] : p[k];
+      const std::int64_t ahead = (other.x - end.x) * (at.x - end.x) + (other.y - end.y) * (at.y - end.y);
+      if (turn(other, end, at) == 0 && ahead > 0) return false;
+    } else if (meet(p[k], p[l], end, at)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Any shape: an edge at a time is replaced by two through a random point, as long as the polygon stays simple.
+Polygon grown(Random& random, int corners, std::int64_t size) {
+  Polygon p{{0, 0}, {size, 0}, {0, size}};
+  for (int tries = 0; tries < 50 * corners && p.size() < static_cast<std::size_t>(corners); ++tries) {
+    const auto i = static_cast<std::size_t>(random.between(0, static_cast<std::int64_t>(p.size()) - 1));
+    const std::size_t j = (i + 1) % p.size();
+    const Point at{random.between(0, size), random.between(0, size)};
+    if (at == p[i] || at == p[j] || !free_edge(p, i, at, i) || !free_edge(p, i, at, j)) continue;
+    if (turn(p[i], at, p[j]) == 0) continue;
+    p.insert(p.begin() + static_cast<std::ptrdiff_t>(i + 1), at);
+  }
+  if (twice_area(p) < 0) std::reverse(p.begin(), p.end());
+  return p;
+}
+
+// --- The check ---
+
+std::vector<dvec3> embedded(const Polygon& polygon, const std::function<dvec3(double, double)>& place) {
+  std::vector<dvec3> points;
+  for (const Point& p : polygon) points.push_back(place(static_cast<double>(p.x), static_cast<double>(p.y)));
+  return points;
+}
+
+// Empty where `triangles` tile the polygon (wound either way), else what is wrong. `flat`: triangles without area may
+// occur.
+std::string tiling_fault(const Polygon& polygon, const Triangles& triangles, bool flat = false) {
+  const std::int64_t area = twice_area(polygon);
+  const std::int64_t way = area < 0 ? -1 : 1;
+  if (triangles.size() != polygon.size() - 2) return "count";
+  std::int64_t sum = 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const auto& t : triangles) {
+    const std::int64_t part = way * twice_area(polygon[t[0]], polygon[t[1]], polygon[t[2]]);
+    if (part < 0 || (part == 0 && !flat)) return part < 0 ? "reversed triangle" : "flat triangle";
+    sum += part;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++edges[{t[k], t[(k + 1) % 3]}];
+      --edges[{t[(k + 1) % 3], t[k]}];
+    }
+  }
+  const auto n = static_cast<std::uint32_t>(polygon.size());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    --edges[{i, (i + 1) % n}];
+    ++edges[{(i + 1) % n, i}];
+  }
+  const auto cancels = [](const auto& edge) { return edge.second == 0; };
+  if (!std::all_of(edges.begin(), edges.end(), cancels)) return "edges";
+  return sum == way * area ? "" : "area";
+}
+
+const std::vector<std::function<dvec3(double, double)>> kPlaces{
+    [](double x, double y) { return dvec3(x, y, 0); },
+    [](double x, double y) { return dvec3(7, x, y); },
+    [](double x, double y) { return dvec3(y, -3, x); },
+    [](double x, double y) { return dvec3(x, y, x - y + 5); },
+    [](double x, double y) { return dvec3(x + 1e6, 3 * x + 2 * y, 2 * x - y); },
+};
+
+// In all places, both ways round, from several first corners.
+void check_tiling(const Polygon& polygon) {
+  Polygon p = polygon;
+  for (int round = 0; round < 4; ++round) {
+    for (std::size_t place = 0; place < kPlaces.size(); ++place) {
+      CAPTURE(place);
+      CAPTURE(round);
+      CHECK(tiling_fault(p, triangulate(embedded(p, kPlaces[place]))) == "");
+    }
+    std::rotate(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(p.size() / 3), p.end());
+    if (round == 1) std::reverse(p.begin(), p.end());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("triangulate: simple polygons are tiled exactly") {
+  const std::vector<std::pair<const char*, std::function<Polygon(Random&, int, std::int64_t)>>> shapes{
+      {"star", star}, {"two chains", two_chains}, {"comb", comb}, {"spiral", spiral}, {"grown", grown}};
+  for (const auto& [name, make] : shapes)
+    for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+      CAPTURE(name);
+      CAPTURE(seed);
+      Random random(seed);
+      const int corners = static_cast<int>(random.between(3, 40));
+      check_tiling(make(random, corners, random.between(4, 1000)));
+    }
+}
+
+TEST_CASE("triangulate: a convex polygon is a fan from corner 0") {
+  const Polygon hexagon{{4, 0}, {3, 3}, {0, 4}, {-4, 1}, {-3, -3}, {1, -4}};
+  const Triangles fan{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
+  CHECK(triangulate(embedded(hexagon, kPlaces[0])) == fan);
+  Polygon reversed = hexagon;
+  std::reverse(reversed.begin(), reversed.end());
+  CHECK(triangulate(embedded(reversed, kPlaces[1])) == fan);
+  CHECK(triangulate(embedded({{0, 0}, {1, 0}, {0, 1}}, kPlaces[0])) == Triangles{{0, 1, 2}});
+}
+
+TEST_CASE("triangulate: corners on an edge never make a T-junction") {
+  check_tiling({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 3}, {0, 3}});
+  check_tiling({{0, 0}, {1, 0}, {2, 0}, {0, 2}});
+  check_tiling({{0, 0}, {2, 0}, {4, 0}, {4, 2}, {4, 4}, {2, 4}, {0, 4}, {0, 2}});
+}
+
+TEST_CASE("triangulate: corners that share a place") {
+  const std::vector<Polygon> polygons{
+      // A square with a square hole, joined by a bridge that is walked twice.
+      {{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {3, 3}, {3, 6}, {6, 6}, {6, 3}, {3, 3}},
+      // Two holes in a chain.
+      {{0, 0},
+       {25, 0},
+       {25, 20},
+       {0, 20},
+       {0, 0},
+       {3, 9},
+       {5, 15},
+       {8, 12},
+       {13, 6},
+       {15, 18},
+       {18, 13},
+       {16, 2},
+       {13, 6},
+       {8, 12},
+       {6, 4},
+       {3, 9}},
+      // Two lobes that touch in a corner, the leftmost one.
+      {{0, 0}, {9, -9}, {9, -3}, {0, 0}, {9, 3}, {9, 9}},
+      // Four lobes around one place, each within a quadrant.
+      {{0, 0},
+       {9, 1},
+       {5, 4},
+       {2, 8},
+       {0, 0},
+       {-1, 7},
+       {-6, 6},
+       {-9, 1},
+       {0, 0},
+       {-5, -1},
+       {-1, -5},
+       {0, 0},
+       {1, -9},
+       {2, -4},
+       {9, -1}},
+      // Corners given twice.
+      {{0, 0}, {5, 0}, {5, 0}, {5, 5}, {2, 2}, {2, 2}, {0, 5}}};
+  for (const Polygon& polygon : polygons) {
+    Polygon p = polygon;
+    for (std::size_t first = 0; first < p.size(); ++first) {
+      CAPTURE(first);
+      CHECK(tiling_fault(p, triangulate(embedded(p, kPlaces[0])), true) == "");
+      std::rotate(p.begin(), p.begin() + 1, p.end());
+    }
+  }
+}
+
+TEST_CASE("triangulate: the last bit decides") {
+  // The middle corner of the upper edge lies one ulp below or above the line of its neighbours.
+  for (const double up : {0.5 - 0x1p-54, 0.5, 0.5 + 0x1p-53}) {
+    const std::vector<dvec3> p{{0, 0, 1}, {1, 0, 1}, {1, 0.5, 1}, {0.25, up, 1}, {0, 0.5, 1}};
+    const Triangles fan{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
+    CAPTURE(up);
+    CHECK((triangulate(p) == fan) == (up >= 0.5));
+    std::vector<dvec3> q(p.begin() + 2, p.end());
+    q.insert(q.end(), p.begin(), p.begin() + 2);
+    CHECK((triangulate(q) == fan) == (up > 0.5));  // a fan would have a flat triangle at 0.5
+  }
+}
+
+TEST_CASE("triangulate: where double cannot decide, the exact sign does") {
+  // p lies by (i, j) ulps of 0.5 off the line y = x through the corners (24, 24) and (12, 12), as in L. Kettner et al.,
+  // "Classroom Examples of Robustness Problems in Geometric Computations", 2008: the polygon is convex iff i > j.
+  const Triangles fan{{0, 1, 2}, {0, 2, 3}};
+  for (int i = 0; i < 64; ++i)
+    for (int j = 0; j < 64; ++j) {
+      const std::vector<dvec3> p{
+          {0.5 + i * 0x1p-53, 0.5 + j * 0x1p-53, 0}, {24, 0, 0}, {24, 24, 0}, {12, 12, 0}};
+      CHECK((triangulate(p) == fan) == (i > j));
+    }
+}
+
+TEST_CASE("triangulate: bad polygons give their number of triangles, all of valid corners") {
+  const std::vector<Polygon> polygons{{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1, 0}},           // on one line
+                                      {{1, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}},           // in one place
+                                      {{0, 0}, {4, 4}, {4, 0}, {0, 4}},                   // a bow tie
+                                      {{0, 10}, {6, -8}, {-10, 3}, {10, 3}, {-6, -8}},    // a pentagram
+                                      {{0, 0}, {4, 0}, {8, 0}, {4, 0}, {4, 4}, {4, 0}}};  // spikes
+  for (const Polygon& polygon : polygons) {
+    const Triangles triangles = triangulate(embedded(polygon, kPlaces[0]));
+    CHECK(triangles.size() == polygon.size() - 2);
+    for (const auto& t : triangles)
+      for (const std::uint32_t corner : t) CHECK(corner < polygon.size());
+  }
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    Polygon noise;
+    for (std::int64_t k = random.between(4, 30); k > 0; --k)
+      noise.push_back({random.between(0, 5), random.between(0, 5)});
+    CHECK(triangulate(embedded(noise, kPlaces[3])).size() == noise.size() - 2);
+  }
+}
+
+TEST_CASE("triangulate: ten thousand corners") {
+  Random random(11);
+  const Polygon large = spiral(random, 4'999, 0);
+  REQUIRE(large.size() == 10'000);
+  CHECK(tiling_fault(large, triangulate(embedded(large, kPlaces[0]))) == "");
+}

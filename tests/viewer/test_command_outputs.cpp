@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// What the verbs write: files whole or not at all, data on standard output only when asked for, the documented keys,
+// and help that is true.
+#include <nlohmann/json.hpp>
+
+#include "tests/viewer/program.h"
+
+using namespace sidelight;
+using namespace sidelight::testing;
+
+namespace {
+
+const Arguments kSmall{"good.toml", "-r", "16x12"};
+
+const std::vector<std::string> kCompareFiles{"causes.png",   "compare.json",    "difference.png",
+                                             "raster.exr",   "raster.png",      "raytrace.exr",
+                                             "raytrace.png", "side_by_side.png"};
+
+Arguments render(const Arguments& more) { return Arguments{"render"} + kSmall + more; }
+Arguments compare_into(const std::string& folder, const Arguments& more = {}) {
+  return Arguments{"compare"} + kSmall + Arguments{"-o", folder} + more;
+}
+
+// The keys of an object and of those in it, as "rays.shadow", in the order of the file.
+std::vector<std::string> keys(const nlohmann::ordered_json& json, const std::string& prefix = "") {
+  std::vector<std::string> out;
+  for (const auto& [key, value] : json.items()) {
+    if (!value.is_object() || value.empty())
+      out.push_back(prefix + key);
+    else
+      for (const std::string& inner : keys(value, prefix + key + ".")) out.push_back(inner);
+  }
+  return out;
+}
+
+void check_not_written(const Outcome& outcome) {
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 7);
+  CHECK(lines(outcome.err).size() == 1);
+}
+
+}  // namespace
+
+TEST_CASE("exit code 7: a file where the folder should be") {
+  const Workplace here;
+  write_bytes(here / "out", "a plain file");
+  check_not_written(here.run(compare_into("out", {"-q"})));
+  check_not_written(here.run(compare_into("out/deeper", {"-q"})));
+  check_not_written(here.run(render({"-q", "-o", "out/a.png"})));
+  CHECK(read_bytes(here / "out") == "a plain file");
+}
+
+TEST_CASE("exit code 7: a folder that is missing or takes the file's name") {
+  const Workplace here;
+  check_not_written(here.run(render({"-q", "-o", "missing/a.exr"})));
+  check_not_written(here.run(render({"-q", "-o", "a.png", "--stats", "missing/a.json"})));
+  CHECK(here.made() == std::vector<std::string>{"a.png"});  // the picture was finished before
+  std::filesystem::create_directory(here / "b.exr");
+  check_not_written(here.run(render({"-q", "-o", "b.exr"})));
+  CHECK(here.names("b.exr").empty());
+}
+
+TEST_CASE("exit code 7: a full disk") {
+  const Workplace here;
+  check_not_written(here.run(render({"-q", "-o", "a.png", "--stats", "/dev/full"})));
+  std::filesystem::create_symlink("/dev/full", here / "full.png");
+  check_not_written(here.run(render({"-q", "-o", "full.png"})));
+  check_not_written(
+      here.run_in_shell("exec \"$0\" \"$@\" > /dev/full", render({"-q", "-o", "a.png", "--stats", "-"})));
+  check_not_written(here.run_in_shell("exec \"$0\" \"$@\" > /dev/full", Arguments{"info"} + kSmall));
+}
+
+TEST_CASE("exit code 7: a limit on the size of files leaves finished files only") {
+  const Workplace here;
+  // One block of 512 bytes: no picture fits. 8: some do, and those are whole.
+  check_not_written(here.run_in_shell("ulimit -f 1; exec \"$0\" \"$@\"", render({"-q", "-o", "a.exr"})));
+  CHECK(here.made().empty());
+
+  REQUIRE(here.run(compare_into("whole", {"-q", "--no-times"})).code == 0);
+  check_not_written(
+      here.run_in_shell("ulimit -f 8; exec \"$0\" \"$@\"", compare_into("part", {"-q", "--no-times"})));
+  for (const std::string& name : here.names("part")) {
+    CAPTURE(name);
+    CHECK(read_bytes(here / ("part/" + name)) == read_bytes(here / ("whole/" + name)));
+  }
+
+  write_bytes(here / "old.exr", "an older picture");
+  check_not_written(here.run_in_shell("ulimit -f 1; exec \"$0\" \"$@\"", render({"-q", "-o", "old.exr"})));
+  CHECK(read_bytes(here / "old.exr") == "an older picture");
+}
+
+TEST_CASE("output: nothing on standard output unasked and nothing at all with -q") {
+  const Workplace here;
+  CHECK(here.run(render({"-o", "a.png"})).out.empty());
+  CHECK(here.run(compare_into("out")).out.empty());
+  for (const Arguments& quiet : {render({"-o", "a.png", "-q"}), compare_into("out", {"-q"})}) {
+    const Outcome outcome = here.run(quiet);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.empty());
+  }
+}
+
+TEST_CASE("output: the statistics have the documented keys") {
+  const Workplace here;
+  const Outcome outcome = here.run(render({"-o", "a.png", "--spp", "4", "--repeat", "2", "--stats", "-"}));
+  REQUIRE(outcome.code == 0);
+  const auto json = nlohmann::ordered_json::parse(outcome.out);
+  CHECK(keys(json) == std::vector<std::string>{"renderer",
+                                               "scene",
+                                               "scene_hash",
+                                               "version",
+                                               "width",
+                                               "height",
+                                               "spp",
+                                               "threads",
+                                               "isa",
+                                               "triangles",
+                                               "spheres",
+                                               "planes",
+                                               "load_ms",
+                                               "build_ms",
+                                               "frame_ms.min",
+                                               "frame_ms.median",
+                                               "frame_ms.max",
+                                               "frame_ms.runs",
+                                               "cpu_ms.min",
+                                               "cpu_ms.median",
+                                               "cpu_ms.max",
+                                               "rays.primary",
+                                               "rays.shadow",
+                                               "rays.reflection",
+                                               "rays.refraction",
+                                               "exact.filtered",
+                                               "exact.double",
+                                               "exact.exact",
+                                               "self_shadowed",
+                                               "cut_weight",
+                                               "peak_memory_mb"});
+  CHECK(json["renderer"] == "raytrace");
+  CHECK(json["width"] == 16);
+  CHECK(json["height"] == 12);
+  CHECK(json["spp"] == 4);
+  CHECK(json["spheres"] == 2);
+  CHECK(json["planes"] == 1);
+  CHECK(json["frame_ms"]["runs"] == 2);
+  CHECK(json["rays"]["primary"] == 16 * 12 * 4);
+}
+
+TEST_CASE("output: compare writes its eight files and the documented keys") {
+  const Workplace here;
+  REQUIRE(here.run(compare_into("out")).code == 0);
+  CHECK(here.names("out") == kCompareFiles);
+  const std::string text = read_bytes(here / "out/compare.json");
+  const auto json = nlohmann::ordered_json::parse(text);
+  CHECK(keys(json) == std::vector<std::string>{"width",
+                                               "height",
+                                               "covered",
+                                               "visibility_mismatches",
+                                               "unexplained",
+                                               "ledger_max_residual",
+                                               "causes.shadow.pixels",
+                                               "causes.shadow.energy",
+                                               "causes.reflection.pixels",
+                                               "causes.reflection.energy",
+                                               "causes.refraction.pixels",
+                                               "causes.refraction.energy",
+                                               "metrics.max.value",
+                                               "metrics.max.x",
+                                               "metrics.max.y",
+                                               "metrics.max.channel",
+                                               "metrics.mean",
+                                               "metrics.rms",
+                                               "metrics.psnr",
+                                               "time_ms.raster.build",
+                                               "time_ms.raster.frame",
+                                               "time_ms.raytrace.build",
+                                               "time_ms.raytrace.frame",
+                                               "faults"});
+  CHECK(json["faults"] == nlohmann::ordered_json::object());
+
+  REQUIRE(here.run(compare_into("local", {"--local"})).code == 0);
+  const auto equal = nlohmann::ordered_json::parse(read_bytes(here / "local/compare.json"));
+  CHECK(equal["metrics"]["psnr"].is_null());  // identical
+  CHECK(equal["metrics"]["max"]["value"] == 0);
+}
+
+TEST_CASE("output: without times two runs write the same bytes") {
+  const Workplace here;
+  REQUIRE(here.run(compare_into("first", {"--no-times", "-j", "1"})).code == 0);
+  REQUIRE(here.run(compare_into("second", {"--no-times", "-j", "2"})).code == 0);
+  CHECK(here.names("second") == kCompareFiles);
+  for (const std::string& name : kCompareFiles) {
+    CAPTURE(name);
+    CHECK(read_bytes(here / ("first/" + name)) == read_bytes(here / ("second/" + name)));
+  }
+}
+
+TEST_CASE("help: fits a screen for every verb and its examples run") {
+  const Workplace here;
+  for (const char* verb : {"view", "compare", "render", "info"}) {
+    CAPTURE(verb);
+    const Outcome help = here.run({verb, "--help"});
+    CHECK(help.code == 0);
+    CHECK(help.err.empty());
+    const std::vector<std::string> shown = lines(help.out);
+    CHECK(shown.size() <= 50);
+    int examples = 0;
+    for (const std::string& line : shown) {
+      if (line.rfind("  sidelight ", 0) != 0) continue;
+      ++examples;
+      CAPTURE(line);
+      // The line as a user types it, but in little, and without a display.
+      std::istringstream words(line.substr(sizeof("  sidelight")));
+      Arguments command{std::istream_iterator<std::string>(words), {}};
+      if (line.find(" -r ") == std::string::npos) command = command + Arguments{"-r", "64x48"};
+      const Outcome outcome = here.run(command);
+      CAPTURE(outcome.err);
+      CHECK(outcome.code == (command[0] == "view" ? 6 : 0));
+      REQUIRE(command.size() > 1);
+      CHECK(std::filesystem::exists(here / command[1]));
+    }
+    CHECK(examples == 2);
+  }
+}
