@@ -4,6 +4,8 @@
 # check that must catch it. A fault that nobody catches is a failure, and so is one whose source text is no longer
 # found exactly once, or a check that fails without any fault. Called by tests/run.sh --ci.
 #
+#   planted_faults.sh [TEXT]    only the faults whose line holds TEXT; default: all
+#
 # The copy lives in build/planted_faults and keeps its objects, so a second run builds the changed files only.
 set -euo pipefail
 
@@ -13,14 +15,15 @@ tree="$work/tree"
 objects="$work/objects"
 scene="$tree/tests/agreement/everything.toml"
 # The test files that hold the checks, and what they need; all others are left out, since they would only cost time.
-tests=(tests/CMakeLists.txt tests/main.cpp tests/tier.h tests/tiers.txt tests/support tests/picture/folder.h
-  tests/agreement/pictures.h tests/agreement/everything.toml tests/agreement/test_references.cpp)
+tests=(tests/CMakeLists.txt tests/main.cpp tests/tier.h tests/tiers.txt tests/support
+  tests/agreement/pictures.h tests/agreement/everything.toml tests/agreement/test_references.cpp
+  tests/agreement/lesson.h tests/agreement/test_lecture_pixels_local.cpp tests/model/test_visibility.cpp)
 
-# Makes the copy equal to the source. Only files that differ are written, so that the build sees just those as new;
-# one that an interrupted run left with a fault in it differs, too.
+# Makes the copy equal to the source. Only files that differ are written, so that the build sees just those as new; one
+# that an interrupted run left with a fault in it differs, too.
 copy_source() {
   local file
-  (cd -- "$root" && find CMakeLists.txt common raster raytrace viewer "${tests[@]}" -type f) | sort >"$work/files"
+  (cd -- "$root" && find CMakeLists.txt common raster raytrace viewer scenes "${tests[@]}" -type f) | sort >"$work/files"
   while IFS= read -r file; do
     cmp -s -- "$root/$file" "$tree/$file" && continue
     mkdir -p -- "$(dirname -- "$tree/$file")"
@@ -94,7 +97,7 @@ split() {
 mkdir -p -- "$tree"
 copy_source
 configure >"$work/build.log"
-grep -v '^#' "$root/tests/planted_faults.txt" | grep . >"$work/faults"
+grep -v -e '^#' -e '^$' "$root/tests/planted_faults.txt" | grep -F -e "${1:-}" >"$work/faults"
 
 printf '%-44s %-52s %s\n' fault "to be caught by" verdict
 build || { tail -n 20 "$work/build.log"; exit 1; }

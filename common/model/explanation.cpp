@@ -2,6 +2,26 @@
 #include "common/model/explanation.h"
 
 namespace sidelight {
+namespace {
+
+void add_leaves(const RayRecord& ray, const glm::dvec3& weight, std::vector<glm::dvec3>& out) {
+  if (!ray.sent) return;
+  if (ray.background) {
+    out.push_back(weight * glm::dvec3(ray.color));
+    return;
+  }
+  const glm::dvec3 local = weight * glm::dvec3(ray.local.local);
+  out.push_back(local * glm::dvec3(ray.local.ambient));
+  for (const LightRecord& light : ray.local.lights)
+    if (light.seen) {
+      out.push_back(local * glm::dvec3(light.diffuse));
+      out.push_back(local * glm::dvec3(light.specular));
+    }
+  for (const RayRecord& child : ray.children)
+    add_leaves(child, weight * glm::dvec3(child.coefficient) * static_cast<double>(child.falloff), out);
+}
+
+}  // namespace
 
 LightRecord record_light(std::size_t light, const LightTerm<float>& term) {
   LightRecord record;
@@ -29,6 +49,12 @@ LocalRecord record_local(const Scene& scene, const ShadingTables& tables, const 
     if (term.lit) record.lights.push_back(record_light(i, term));
   }
   return record;
+}
+
+std::vector<glm::dvec3> leaves(const RayRecord& root) {
+  std::vector<glm::dvec3> out;
+  add_leaves(root, glm::dvec3(1), out);
+  return out;
 }
 
 }  // namespace sidelight

@@ -63,6 +63,10 @@ struct RayRecord {
   std::vector<RayRecord> children;
 };
 
+// Every number that the ray adds to its root: background, ambient, diffuse and specular terms, each times all that it
+// was weighed by on the way, in double. Their sum is the root's colour up to the rounding of its floats.
+std::vector<glm::dvec3> leaves(const RayRecord& root);
+
 LightRecord record_light(std::size_t light, const LightTerm<float>& term);
 
 // Local light with every light seen, term by term: the scalar twin of what shade() computes, and so its bits.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The error bounds that lane_math.h states, against libm in long double (64 bits of mantissa: its own error is below
-// 2^-10 ulp of a double), and the promise that a wide lane holds the bits of the scalar.
+// The error bounds that lane_math.h states, against libm in long double (64 bits of mantissa: its own error
+// is below 2^-10 ulp of a double), and the promise that a wide lane holds the bits of the scalar.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Expansions against 128-bit integers (exact) and 113-bit floats: signs of nearly vanishing determinants, areas and
-// collinearity, and quotients rounded once.
+// Expansions against 128-bit integers (exact) and 113-bit floats: signs of nearly vanishing determinants,
+// areas and collinearity, and quotients rounded once.
 #include <doctest/doctest.h>
 
 #include <bit>
@@ -224,7 +224,8 @@ TEST_CASE("rounded_quotient is right on and next to a tie of long expansions") {
 }
 
 TEST_CASE("rounded_quotient next to a power of two, where the spacing of doubles changes") {
-  // Below 1 doubles lie 2^-53 apart: the midpoints are 1 - 2^-54, 1 - 3 2^-54. x - 1 as one determinant, exactly:
+  // Below 1 doubles lie 2^-53 apart: the midpoints are 1 - 2^-54, 1 - 3 2^-54. x - 1 as one determinant,
+  // exactly:
   const auto minus_one = [](double x) { return exact::determinant({x, 1, 0}, {1, 1, 0}, {0, 0, 1}); };
   const auto over = [](const exact::Determinant& n, double d) {
     return exact::rounded_quotient(n, product(d, 1, 1), kZero, kZero);
@@ -239,7 +240,8 @@ TEST_CASE("rounded_quotient next to a power of two, where the spacing of doubles
 }
 
 TEST_CASE("long expansions and their quotients are those of 113-bit arithmetic, rounded") {
-  // Full mantissas: 24 parts each. The oracle is off by 2^-110 or so: it fails to round alike once in 2^50 times.
+  // Full mantissas: 24 parts each. The oracle is off by 2^-110 or so: it fails to round alike once in 2^50
+  // times.
   Random random(7);
   std::uint64_t wrong = 0;
   for (std::uint64_t left = tier_count("rays_per_case") / 4; left > 0; --left) {

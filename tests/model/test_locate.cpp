@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a ray met a surface: the point lies on it, rays that leave from its clearance never meet it again (SEC-1), and
-// the clearance is small. And which points a solid contains.
+// Where a ray met a surface: the point lies on it, rays that leave from its clearance never meet it again
+// (SEC-1), and the clearance is small. And which points a solid contains.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,7 +23,8 @@ constexpr double kU = 0x1p-53;
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-// A unit vector on the side of `normal`: half of them with its cosine evenly spread over the magnitudes from 1e-6 to 1.
+// A unit vector on the side of `normal`: half of them with its cosine evenly spread over the magnitudes from
+// 1e-6 to 1.
 glm::dvec3 outward(const glm::dvec3& normal, Random& random) {
   const bool grazing = random.uniform() < 0.5;
   const double cosine = grazing ? random.log_uniform(1e-6, 1) : random.uniform(1e-6, 1);
@@ -36,8 +37,9 @@ struct Departure {
   double height_ulps = 0;  // summed over the hits
 };
 
-// Rays at the body from 3 to 103 sizes away; from each hit, 64 outward rays. `height_above(p)` is the exact height of a
-// point above the nearest surface, outside the body; `reach` is the body's largest coordinate, whose ulp is the unit.
+// Rays at the body from 3 to 103 sizes away; from each hit, 64 outward rays. `height_above(p)` is the exact
+// height of a point above the nearest surface, outside the body; `reach` is the body's largest coordinate,
+// whose ulp is the unit.
 template <class Height>
 Departure depart(const Scene& scene, const glm::dvec3& center, double size, double reach,
                  const Height& height_above) {
@@ -130,8 +132,9 @@ TEST_CASE("rays that leave a plane never meet it again, wherever it is") {
     }
 }
 
-// From locate_triangle: E / sum is off by 3 u (quotient, sum of three), so the sum of all by 4 u and the rounding of
-// this test; the point by 12 u reach along the normal, the clearance being 16; the ray's own error is not the point's.
+// From locate_triangle: E / sum is off by 3 u (quotient, sum of three), so the sum of all by 4 u and the
+// rounding of this test; the point by 12 u reach along the normal, the clearance being 16; the ray's own
+// error is not the point's.
 TEST_CASE("barycentrics add up to 1 and the point lies on its triangle, whatever the triangle") {
   Random random(3);
   std::uint64_t off_sum = 0, off_plane = 0, off_ray = 0, outside = 0, wrong_side = 0, hits = 0;
@@ -156,7 +159,8 @@ TEST_CASE("barycentrics add up to 1 and the point lies on its triangle, whatever
     const QuadVec n = cross(quad(v[1]) - quad(v[0]), quad(v[2]) - quad(v[0]));
     const Quad height = dot(n, quad(place.point) - quad(v[0])) / length(n);
     off_plane += !(magnitude(height) <= 0.75 * place.clearance);
-    // Across the plane: three weights off by 2^-19 of corners at most 4 sizes apart, and depth's 2^-18 along the ray.
+    // Across the plane: three weights off by 2^-19 of corners at most 4 sizes apart, and depth's 2^-18 along
+    // the ray.
     const double along = hit.t * glm::length(ray.direction);
     off_ray += !(glm::length(origin + hit.t * ray.direction - place.point) <= 0x1p-16 * (size + along));
     wrong_side += place.entering != (dot(n, quad(origin) - quad(v[0])) > 0);

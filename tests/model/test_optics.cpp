@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mirror and Snell directions: worked out by hand, next to the critical angle against 113-bit arithmetic, and the
-// folding rules where an interpolated normal sends a ray to the wrong side.
+// Mirror and Snell directions: worked out by hand, next to the critical angle against 113-bit arithmetic, and
+// the folding rules where an interpolated normal sends a ray to the wrong side.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -58,7 +58,8 @@ TEST_CASE("beyond the critical angle nothing is transmitted") {
   CHECK(refract_direction({1, 0, 0}, kUp, kUp, 1 / 1.5));  // grazing entry is refracted: sin T = 1/1.5
 }
 
-// REF-1, its criteria with eps = 2^-52. The oracle is Snell's law in 113 bits on the same rounded vectors, normalised.
+// REF-1, its criteria with eps = 2^-52. The oracle is Snell's law in 113 bits on the same rounded vectors,
+// normalised.
 TEST_CASE("next to the critical angle directions are unit, keep Snell's law and decide alike") {
   Random random(1);
   std::uint64_t wrong_length = 0, wrong_sine = 0, wrong_cosine = 0, wrong_decision = 0, transmitted = 0,
@@ -116,7 +117,8 @@ TEST_CASE("equal indices give the ray's own direction, bit for bit") {
 
 TEST_CASE("a mirror ray that an interpolated normal sends below the surface is folded back") {
   // D = (1, -1)/sqrt 2 on N = (-0.28, 0.96): D.N = -1.24/sqrt 2, R = D + 2 (1.24/sqrt 2) N
-  //   = (0.3056, 1.3808)/sqrt 2: above, kept. On N = (0.6, 0.8): D.N = -0.2/sqrt 2, R = (1.24, -0.68)/sqrt 2: folded.
+  //   = (0.3056, 1.3808)/sqrt 2: above, kept. On N = (0.6, 0.8): D.N = -0.2/sqrt 2, R = (1.24, -0.68)/sqrt 2:
+  //   folded.
   const double h = std::sqrt(0.5);
   CHECK(reflect_direction({h, -h, 0}, {-0.28, 0.96, 0}, kUp) == near({0.3056 * h, 1.3808 * h, 0}, 8 * kEps));
   CHECK(reflect_direction({h, -h, 0}, {0.6, 0.8, 0}, kUp) == near({1.24 * h, 0.68 * h, 0}, 8 * kEps));
@@ -152,8 +154,8 @@ TEST_CASE("Snell's law uses Nv where the ray comes from behind N, and folds T to
   CHECK(*refract_direction(shallow, behind, kUp, 1 / 1.5) == *refract_direction(shallow, kUp, kUp, 1 / 1.5));
   CHECK(*refract_direction(d, behind, kUp, 1 / 1.5) != *refract_direction(d, kUp, kUp, 1 / 1.5));
 
-  // cos i = 0.1 on N, leaving a denser medium: sin² T = 1.004² 0.99, cos T = 0.045, so T = 1.004 D + 0.055 N, about.
-  // Nv is nearly N, but D.Nv is only -0.001: T.Nv = 0.05, which is on the side it came from.
+  // cos i = 0.1 on N, leaving a denser medium: sin² T = 1.004² 0.99, cos T = 0.045, so T = 1.004 D + 0.055 N,
+  // about. Nv is nearly N, but D.Nv is only -0.001: T.Nv = 0.05, which is on the side it came from.
   const glm::dvec3 n{-0.96, 0.28, 0}, along{0.28, 0.96, 0};
   const glm::dvec3 grazing = glm::normalize(along - 0.1 * n);
   const glm::dvec3 tilted{-0.96, 0.2, 0.2};
@@ -163,7 +165,8 @@ TEST_CASE("Snell's law uses Nv where the ray comes from behind N, and folds T to
   CHECK(glm::dot(t, facing) < 0);
 }
 
-// MIR-1. Two mirrors that face each other, the second tilted by a: every pair of bounces turns the ray by 2a about y.
+// MIR-1. Two mirrors that face each other, the second tilted by a: every pair of bounces turns the ray by 2a
+// about y.
 TEST_CASE("a thousand bounces between two mirrors keep length and direction") {
   constexpr double kTilt = 1e-4;
   const glm::dvec3 floor{0, 0, 1}, ceiling{std::sin(kTilt), 0, -std::cos(kTilt)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The local model term by term, against values worked out by hand, and at the arguments where it likes to break:
-// s = 0 and s = 10^6, light from behind, light at the point itself.
+// The local model term by term, against values worked out by hand, and at the arguments where it likes to
+// break: s = 0 and s = 10^6, light from behind, light at the point itself.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -79,8 +79,9 @@ TEST_CASE_TEMPLATE("a point light worked out by hand", T, float, double) {
   const LightTerm<T> term = light_term<T>(point_facing_z<T>(), light);
   CHECK(term.lit);
   CHECK_FALSE(term.self_shadowed);
-  // L is good to 2 u, f to 5 u, three products: 12 u of at most 1.28 would do without the power; |Rl - V|²/2 is off by
-  // 10 u, relative to Rl.V = 0.8 and doubled by the exponent 25 u, log1p and exp 8 u more. Together under 50 u.
+  // L is good to 2 u, f to 5 u, three products: 12 u of at most 1.28 would do without the power; |Rl - V|²/2
+  // is off by 10 u, relative to Rl.V = 0.8 and doubled by the exponent 25 u, log1p and exp 8 u more. Together
+  // under 50 u.
   CHECK(term.diffuse == near({0.4, 0.4, 0.4}, 12 * kU<T>));
   CHECK(term.specular == near({0.16, 0.32, 1.28}, 50 * kU<T> * 1.28));
   CHECK(term.total() == near({0.56, 0.72, 1.68}, 50 * kU<T> * 1.68));
@@ -169,9 +170,10 @@ TEST_CASE_TEMPLATE("a surface stands in its own light where N sees it and Nv doe
   CHECK_FALSE(light_term<T>(point, light).self_shadowed);  // not lit in the first place
 }
 
-// PHO-1. N = z; L = N, or in the plane, or behind; V such that Rl.V has the value wanted: where N.L = 1, Rl = N.
-// Error of c^s = exp(s log1p(-|Rl - V|²/2)): 1 - c is formed to 4 u, and where it is 1 the power may be that of an ulp
-// instead of c's (both below 2 u for s >= 1); log1p and exp add 8 u times s c^s |log c| <= 1. 4 eps = 8 u covers it.
+// PHO-1. N = z; L = N, or in the plane, or behind; V such that Rl.V has the value wanted: where N.L = 1, Rl =
+// N. Error of c^s = exp(s log1p(-|Rl - V|²/2)): 1 - c is formed to 4 u, and where it is 1 the power may be
+// that of an ulp instead of c's (both below 2 u for s >= 1); log1p and exp add 8 u times s c^s |log c| <= 1.
+// 4 eps = 8 u covers it.
 TEST_CASE_TEMPLATE("72 combinations of s, Rl.V and N.L follow the definition of the specular term", T, float,
                    double) {
   ShadingPoint<T> point = point_facing_z<T>();
@@ -190,8 +192,9 @@ TEST_CASE_TEMPLATE("72 combinations of s, Rl.V and N.L follow the definition of 
       }
 }
 
-// PHO-2. The angle is known in double; Rl and V are rounded to float. With y = s |Rl - V|²/2 and an error of k u in
-// Rl - V, the power e^-y is off by e^-y sqrt(2 y s) k u <= 0.61 sqrt(s) k u = 3.6e-5 k for s = 10^6; k is about 1.
+// PHO-2. The angle is known in double; Rl and V are rounded to float. With y = s |Rl - V|²/2 and an error of
+// k u in Rl - V, the power e^-y is off by e^-y sqrt(2 y s) k u <= 0.61 sqrt(s) k u = 3.6e-5 k for s = 10^6; k
+// is about 1.
 TEST_CASE("the highlight is within 1e-4 of its peak up to s = 10^6") {
   Random random(5);
   for (double s = 1; s <= 1e6; s *= 10) {
@@ -212,9 +215,9 @@ TEST_CASE("the highlight is within 1e-4 of its peak up to s = 10^6") {
   }
 }
 
-// Both kernels get the same numbers, each a float. Diffuse: f good to 8 u, N.L to 5 u absolutely, products 3 u, of
-// at most I kd = 1: 16 u. Specular: L, Rl and Rl - V good to 8 u a component, so |Rl - V|²/2 <= 1 to 24 u and the power
-// to s 24 u (|d(c^s)/dc| <= s), log1p and exp 8 u: with the factor, (24 s + 24) u.
+// Both kernels get the same numbers, each a float. Diffuse: f good to 8 u, N.L to 5 u absolutely, products 3
+// u, of at most I kd = 1: 16 u. Specular: L, Rl and Rl - V good to 8 u a component, so |Rl - V|²/2 <= 1 to 24
+// u and the power to s 24 u (|d(c^s)/dc| <= s), log1p and exp 8 u: with the factor, (24 s + 24) u.
 TEST_CASE("float and double agree to the rounding of float") {
   Random random(6);
   std::uint64_t wrong = 0;
@@ -240,7 +243,8 @@ TEST_CASE("float and double agree to the rounding of float") {
     const LightTerm<float> narrow = evaluate(0.0f);
     const LightTerm<double> wide = evaluate(0.0);
     wrong += !(std::abs(narrow.diffuse.x - wide.diffuse.x) <= 16 * kU<float>);
-    // Where Rl.V or N.L is 0 to rounding, only one of them may see the highlight: up to its height there, s 24 u.
+    // Where Rl.V or N.L is 0 to rounding, only one of them may see the highlight: up to its height there, s
+    // 24 u.
     const bool edge = (narrow.specular.x > 0) != (wide.specular.x > 0);
     wrong += !edge && !(std::abs(narrow.specular.x - wide.specular.x) <= (24 * shininess + 24) * kU<float>);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shade() is one kernel for every instruction set: the same bytes, whatever the batch holds, and the local model as
-// light_term has it, summed in the order that shading.h documents.
+// shade() is one kernel for every instruction set: the same bytes, whatever the batch holds, and the local
+// model as light_term has it, summed in the order that shading.h documents.
 #include <doctest/doctest.h>
 
 #include <bit>

@@ -21,8 +21,9 @@ namespace {
 
 constexpr Hit kMiss{};
 
-// Whether 113-bit arithmetic also sees the ray meet the triangle; products of three doubles need up to 159 bits, so
-// within 2^-100 of the sum of magnitudes it gives the benefit of the doubt. All vertices are below `extent`.
+// Whether 113-bit arithmetic also sees the ray meet the triangle; products of three doubles need up to 159
+// bits, so within 2^-100 of the sum of magnitudes it gives the benefit of the doubt. All vertices are below
+// `extent`.
 bool may_meet(const Scene& scene, std::uint32_t triangle, const Ray& ray, double extent) {
   std::array<QuadVec, 3> a{};
   for (std::size_t k = 0; k < 3; ++k)
@@ -134,8 +135,8 @@ TEST_CASE("neighbours see the sign of a common edge alike, in every bit") {
   CHECK(unlike == 0);
 }
 
-// A flip (v1 and v2 change places) negates the normal and every sign exactly. A rotation takes the depth from another
-// corner: the hit stays, the depth may move within its bound (test_visibility_depth.cpp).
+// A flip (v1 and v2 change places) negates the normal and every sign exactly. A rotation takes the depth from
+// another corner: the hit stays, the depth may move within its bound (test_visibility_depth.cpp).
 TEST_CASE("flipping a triangle changes no bit of a hit, rotating it changes no hit") {
   Random random(4);
   std::uint64_t changed = 0, hits = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The depth of a triangle: positive on every hit and within its stated bound of the exact quotient, for slivers, for
-// triangles seen nearly edge-on and at any scale.
+// The depth of a triangle: positive on every hit and within its stated bound of the exact quotient, for
+// slivers, for triangles seen nearly edge-on and at any scale.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,16 +21,17 @@ namespace {
 constexpr double kU = 0x1p-53;
 constexpr double kBound = 0x1p-18;  // visibility.h: relative, at worst
 
-// The bound for this very triangle and ray, from the derivation above depth_plane: a0 . n and d . n are each off by
-// 4 u times their sum of magnitudes; the quotient adds u. Bounds are themselves rounded: 1 + 2^-17 for the second order.
+// The bound for this very triangle and ray, from the derivation above depth_plane: a0 . n and d . n are each
+// off by 4 u times their sum of magnitudes; the quotient adds u. Bounds are themselves rounded: 1 + 2^-17 for
+// the second order.
 double relative_bound(const TriangleView& view, const DepthPlane& plane, const glm::dvec3& d) {
   const double above = glm::dot(glm::abs(view.a[0]), plane.weight) / std::abs(plane.a0_n);
   const double below = glm::dot(glm::abs(d), plane.weight) / std::abs(glm::dot(d, plane.n));
   return std::min(kBound, (1 + 0x1p-17) * (4 * kU * (above + below) + kU));
 }
 
-// a0, a1, a2 are integers and d = i a0 + j a1 + k a2 with i, j, k >= 0, not all 0: the ray meets the triangle at exactly
-// t = 1 / (i + j + k), unless the origin lies in its plane.
+// a0, a1, a2 are integers and d = i a0 + j a1 + k a2 with i, j, k >= 0, not all 0: the ray meets the triangle
+// at exactly t = 1 / (i + j + k), unless the origin lies in its plane.
 struct Tally {
   std::uint64_t wrong = 0, missed = 0, rounded_once = 0;
 };
@@ -59,7 +60,8 @@ void check_integer_triangle(const std::array<glm::dvec3, 3>& v, const glm::dvec3
 }  // namespace
 
 TEST_CASE("the depth of a sliver is within its bound") {
-  // A third vertex next to the line through the others, up to 2^-30 of its length off it, and beyond its ends too.
+  // A third vertex next to the line through the others, up to 2^-30 of its length off it, and beyond its ends
+  // too.
   Random random(1);
   Tally tally;
   for (std::uint64_t left = tier_count("rays_per_case") / 2; left > 0; --left) {
@@ -114,7 +116,8 @@ TEST_CASE("the depth of any triangle is within its bound of the quotient in 113 
   CHECK(hits > 0);
 }
 
-// TRI-9, MET-2: scaling by powers of two is exact, so nothing may change, not even where positions reach 1e-30 or 1e15.
+// TRI-9, MET-2: scaling by powers of two is exact, so nothing may change, not even where positions reach
+// 1e-30 or 1e15.
 TEST_CASE("scaling a triangle and its ray by a power of two changes no bit") {
   Random random(4);
   std::uint64_t changed = 0, hits = 0;

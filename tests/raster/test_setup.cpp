@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// box_of_primitive never excludes a sample at which intersect() finds the primitive: in front of, around and behind the
-// eye, huge and tiny, seen through telephoto lenses and through 179.99 degrees. And it does exclude most others.
+// box_of_primitive never excludes a sample at which intersect() finds the primitive: in front of, around and
+// behind the eye, huge and tiny, seen through telephoto lenses and through 179.99 degrees. And it does
+// exclude most others.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -32,8 +33,8 @@ Camera any_camera(Random& random, double view_height) {
   return make_camera(settings, kWidth, kHeight, 1 + static_cast<int>(random.below(2)));
 }
 
-// A point on, or next to, the ray of a sample of the picture or of its surroundings, at any distance in front of the
-// eye. The step between samples there is `footprint`.
+// A point on, or next to, the ray of a sample of the picture or of its surroundings, at any distance in front
+// of the eye. The step between samples there is `footprint`.
 struct Aim {
   glm::dvec3 point{0};
   double footprint = 0;
@@ -159,7 +160,8 @@ TEST_CASE("boxes worked out by hand") {
   const auto box_of = [&](const std::vector<glm::dvec3>& points) {
     return raster::box_of_points(camera, points);
   };
-  // x from -0.55 to 0.45 is X from 14 to 24, y from -0.25 to 0.35 is Y from 6 to 12; a margin of one sample, half-open.
+  // x from -0.55 to 0.45 is X from 14 to 24, y from -0.25 to 0.35 is Y from 6 to 12; a margin of one sample,
+  // half-open.
   const SampleBox box = box_of({{-0.55, 0.05, -1}, {0.9, 0.7, -2}, {0, -0.25, -1}});
   CHECK(box.x0 <= 14);
   CHECK(box.x0 >= 12);

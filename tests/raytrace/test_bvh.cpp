@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The hierarchy loses nothing: every closed box that a ray meets is reached (BVH-1), with room for the rounding of hits,
-// nearer boxes first; and no input makes it deeper than the traversal's stack.
+// The hierarchy loses nothing: every closed box that a ray meets is reached (BVH-1), with room for the
+// rounding of hits, nearer boxes first; and no input makes it deeper than the traversal's stack.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -36,7 +36,8 @@ std::set<std::uint32_t> reached(const Bvh& bvh, const Ray& ray) {
   return items;
 }
 
-// Whether the ray meets the closed box at some t > 0, with quotients in 113 bits: monotone, so no box is left out.
+// Whether the ray meets the closed box at some t > 0, with quotients in 113 bits: monotone, so no box is left
+// out.
 bool meets(const Box& box, const Ray& ray) {
   Quad near = 0, far = 1e300;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tracer's questions: nearest(), blocker() and hits_between() answer as brute force does, bit for bit, ties and
-// duplicates included (BVH-2, BVH-5).
+// The tracer's questions: nearest(), blocker() and hits_between() answer as brute force does, bit for bit,
+// ties and duplicates included (BVH-2, BVH-5).
 #include <doctest/doctest.h>
 
 #include <limits>

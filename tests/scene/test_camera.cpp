@@ -46,8 +46,9 @@ CameraSettings any_camera(Random& random) {
 
 }  // namespace
 
-// eye at the origin, looking along -z, height 2 at distance 1: r = (2, 0, 0), u = (0, 2, 0), f = (0, 0, -1). For 4x2
-// pixels d(X, Y) = (2X - 3) r + (1 - 2Y) u + 4 f: four times the point (X - 1.5, 0.5 - Y, -1) of the picture plane.
+// eye at the origin, looking along -z, height 2 at distance 1: r = (2, 0, 0), u = (0, 2, 0), f = (0, 0, -1).
+// For 4x2 pixels d(X, Y) = (2X - 3) r + (1 - 2Y) u + 4 f: four times the point (X - 1.5, 0.5 - Y, -1) of the
+// picture plane.
 TEST_CASE("the rays of a camera of 4 by 2 pixels") {
   CameraSettings settings;
   settings.view_height = 2;
@@ -115,8 +116,8 @@ TEST_CASE("a direction is the sum of its three parts, in this order, bit for bit
   CHECK(unlike == 0);
 }
 
-// MET-5: with an odd n, sample (n/2, n/2) of a pixel is its centre, n times as long: 2 (n x + n/2) + 1 - n W =
-// n (2 x + 1 - W). Each part is rounded on its own, hence parallel up to 3 u of each part and sum.
+// MET-5: with an odd n, sample (n/2, n/2) of a pixel is its centre, n times as long: 2 (n x + n/2) + 1 - n W
+// = n (2 x + 1 - W). Each part is rounded on its own, hence parallel up to 3 u of each part and sum.
 TEST_CASE("an odd number of samples has one at the pixel's centre, an even number has none") {
   Random random(3);
   for (int i = 0; i < 100; ++i) {

@@ -56,7 +56,8 @@ inline Scene scene_of_triangle(const glm::dvec3& v0, const glm::dvec3& v1, const
   return scene_of(mesh_of({v0, v1, v2}, {{0, 1, 2}}));
 }
 
-// S(rows, columns, amplitude, seed) of HARDCASES section 0: closed, star-shaped around the origin, wound outward.
+// S(rows, columns, amplitude, seed) of HARDCASES section 0: closed, star-shaped around the origin, wound
+// outward.
 inline PolygonMesh star_sphere(std::uint32_t rows, std::uint32_t columns, double amplitude,
                                std::uint64_t seed) {
   Random random(seed);

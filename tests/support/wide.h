@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wider numbers for oracles that share nothing with the code they judge: 128-bit integers (exact) and 113-bit floats
-// (exact for products of three integers below 2^36).
+// Wider numbers for oracles that share nothing with the code they judge: 128-bit integers (exact) and 113-bit
+// floats (exact for products of three integers below 2^36).
 #pragma once
 
 #include <cmath>

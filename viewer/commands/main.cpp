@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   add_view_command(app, exit_code);
   add_compare_command(app, exit_code);
   add_render_command(app, exit_code);
+  add_explain_command(app, exit_code);
   add_info_command(app, exit_code);
 
   try {

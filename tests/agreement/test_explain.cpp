@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// An explanation is the picture's own story: on random pixels of every scene its root is the picture's colour in every
+// bit, the fragment that won is the picture's, and its terms add up to the root.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/model/explanation.h"
+#include "common/scene/toml.h"
+#include "raster/raster.h"
+#include "raytrace/raytrace.h"
+#include "tests/agreement/pictures.h"
+#include "tests/support/random.h"
+#include "tests/tier.h"
+
+using namespace sidelight;
+using namespace sidelight::testing;
+
+namespace {
+
+int deepest(const RayRecord& ray) {
+  int depth = ray.depth;
+  for (const RayRecord& child : ray.children) depth = std::max(depth, deepest(child));
+  return depth;
+}
+
+// |sum of leaves - root| <= (leaves + 4 depth) 2^-24 sum |leaf|: each leaf is added once, and on its way to the root is
+// multiplied by c, w and c1 and added to its siblings, each time with one rounding.
+void check_leaves(const RayRecord& root) {
+  glm::dvec3 sum(0), size(0);
+  const std::vector<glm::dvec3> terms = leaves(root);
+  for (const glm::dvec3& term : terms) {
+    sum += term;
+    size += glm::abs(term);
+  }
+  const double bound = (static_cast<double>(terms.size()) + 4.0 * deepest(root)) * 0x1p-24;
+  for (int c = 0; c < 3; ++c) CHECK(std::abs(sum[c] - static_cast<double>(root.color[c])) <= bound * size[c]);
+}
+
+void check_scene(const std::string& file, std::uint64_t seed) {
+  CAPTURE(file);
+  const Scene scene = load_scene(file);
+  const Camera camera = make_camera(scene.camera, 160, 121, 1);
+  RenderOptions options;
+  options.keep_samples = true;
+  const auto rasterizer = raster::prepare(scene);
+  const auto tracer = raytrace::prepare(scene);
+  const Frame flat = raster::render(*rasterizer, camera, options), deep = raytrace::render(*tracer, camera, options);
+
+  test::Random random(seed);
+  for (std::uint64_t i = 0; i < test::tier_count("explained_pixels"); ++i) {
+    const int x = static_cast<int>(random.uniform() * camera.width), y = static_cast<int>(random.uniform() * camera.height);
+    CAPTURE(x);
+    CAPTURE(y);
+    const std::size_t at = flat.index(x, y);
+
+    const RasterRecord why_flat = raster::explain(*rasterizer, camera, x, y);
+    CHECK(why_flat.color == flat.color[at]);
+    CHECK(why_flat.background == (flat.sample_primitive[at] == kNone));
+    if (!why_flat.background) {
+      CHECK(why_flat.local.hit.primitive == flat.sample_primitive[at]);
+      CHECK(why_flat.local.hit.t == flat.sample_depth[at]);
+      for (const FragmentRecord& fragment : why_flat.fragments) CHECK_FALSE(before(fragment.hit, why_flat.local.hit));
+    }
+    const RayRecord why_deep = raytrace::explain(*tracer, camera, x, y);
+    CHECK(why_deep.color == deep.color[at]);
+    check_leaves(why_deep);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("explain: the root is the picture's colour and the leaves add up to it on every scene") {
+  std::uint64_t seed = 1;
+  for (const std::string& file : shipped_scenes()) check_scene(file, seed++);
+}

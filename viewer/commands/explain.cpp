@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// sidelight explain: why a pixel has its colour, in both renderers, term by term. The renderers' own code tells it
+// (common/model/explanation.h); here it is only put into words, or into JSON.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "common/picture/frame.h"
+#include "raster/raster.h"
+#include "raytrace/raytrace.h"
+#include "viewer/commands/commands.h"
+#include "viewer/commands/explain_text.h"
+#include "viewer/commands/job.h"
+
+namespace sidelight {
+namespace {
+
+struct ExplainFlags {
+  JobFlags job;
+  std::string pixel, sample, json;
+};
+
+// "x,y" with 0 <= x < width and 0 <= y < height.
+glm::ivec2 parse_pair(const std::string& text, int width, int height, const char* flag) {
+  glm::ivec2 at(0);
+  const char* const end = text.data() + text.size();
+  const auto [comma, first_error] = std::from_chars(text.data(), end, at.x);
+  const bool has_comma = first_error == std::errc() && comma != end && *comma == ',';
+  const auto [last, second_error] = has_comma ? std::from_chars(comma + 1, end, at.y) : std::from_chars(end, end, at.y);
+  const bool whole = has_comma && second_error == std::errc() && last == end;
+  if (!whole || at.x < 0 || at.y < 0 || at.x >= width || at.y >= height)
+    throw UsageError(fmt::format("{} wants two numbers x,y from 0,0 to {},{}; got '{}'", flag, width - 1, height - 1, text));
+  return at;
+}
+
+std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel, const std::vector<glm::ivec2>& samples) {
+  const auto rasterizer = raster::prepare(job.scene, job.options.threads);
+  const auto tracer = raytrace::prepare(job.scene, job.options.threads);
+  std::vector<ExplainedSample> out;
+  for (const glm::ivec2& sample : samples) {
+    const int X = job.camera.n * pixel.x + sample.x, Y = job.camera.n * pixel.y + sample.y;
+    out.push_back({sample.x, sample.y, raster::explain(*rasterizer, job.camera, X, Y),
+                   raytrace::explain(*tracer, job.camera, X, Y)});
+  }
+  return out;
+}
+
+int run_explain(const ExplainFlags& flags) {
+  const Job job = load_job(flags.job);
+  const int n = job.camera.n;
+  const glm::ivec2 pixel = parse_pair(flags.pixel, job.scene.width, job.scene.height, "--pixel");
+  std::vector<glm::ivec2> samples;
+  if (!flags.sample.empty()) {
+    samples.push_back(parse_pair(flags.sample, n, n, "--sample"));
+  } else {
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) samples.emplace_back(i, j);
+  }
+  const std::vector<ExplainedSample> explained = explain_pixel(job, pixel, samples);
+
+  if (flags.json != "-") fmt::print("{}", explanation_text(job, pixel, explained));
+  const std::string json = explanation_json(job, pixel, explained).dump(2) + "\n";
+  if (flags.json == "-")
+    fmt::print("{}", json);
+  else if (!flags.json.empty())
+    write_text_file(flags.json, json);
+  return 0;
+}
+
+}  // namespace
+
+void add_explain_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<ExplainFlags>();
+  CLI::App* verb = app.add_subcommand("explain", "why a pixel has its colour, in both renderers, term by term");
+  add_job_flags(*verb, flags->job);
+  verb->add_option("--pixel", flags->pixel, "the pixel x,y (y down)")->required();
+  verb->add_option("--sample", flags->sample, "one of its samples i,j; else all of them");
+  verb->add_option("--json", flags->json, "write it as JSON to FILE, - for standard output instead of the text");
+  verb->footer(
+      "Examples:\n"
+      "  sidelight explain scenes/showcase.toml --pixel 380,290\n"
+      "  sidelight explain scenes/07-mirrors.toml --pixel 320,200 --depth 3");
+  verb->callback([flags, &exit_code] { exit_code = run_explain(*flags); });
+}
+
+}  // namespace sidelight
