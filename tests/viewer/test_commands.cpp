@@ -214,16 +214,21 @@ TEST_CASE("exit code 6: no display") { check_refused({"view", "good.toml"}, 6, "
 
 TEST_CASE("exit code 130: interrupted in the middle of a picture") {
   const Workplace here;
-  for (const int signal : {SIGINT, SIGTERM}) {
-    Process process(
-        {SIDELIGHT_BINARY, "render", "good.toml", "-o", "a.exr", "-r", "8000x6000", "--spp", "9", "-q"},
-        here / ".");
+  const auto interrupt = [&](const Arguments& verb, int signal) {
+    const Arguments command =
+        Arguments{SIDELIGHT_BINARY} + verb + Arguments{"-r", "4000x3000", "--spp", "36", "-q"};
+    Process process(command, here / ".");
     process.await_handler(signal);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));  // by now it renders; any moment must do
     process.send(signal);
     const Outcome outcome = process.wait();
     CHECK(outcome.code == 130);
     CHECK(outcome.out.empty());
-    CHECK(here.made().empty());
-  }
+    CHECK(lines(outcome.err).size() == 1);
+  };
+  interrupt({"render", "good.toml", "-o", "a.exr"}, SIGINT);
+  interrupt({"render", "good.toml", "-o", "a.exr"}, SIGTERM);
+  CHECK(here.made().empty());
+  interrupt({"compare", "good.toml", "-o", "out"}, SIGINT);
+  CHECK(here.names("out").empty());
 }

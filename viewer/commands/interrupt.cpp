@@ -18,6 +18,11 @@ void on_signal(int signal) {
 
 std::atomic<bool>& interrupt_flag() { return raised; }
 
+void restore_default_signals() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
 void install_signal_handlers() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);

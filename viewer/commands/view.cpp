@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "viewer/commands/commands.h"
+#include "viewer/commands/interrupt.h"
 #include "viewer/commands/progress.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/window/window.h"
@@ -32,6 +33,7 @@ int run_view(const JobFlags& flags) {
     pair.labels.left.times = Times{left.build_ms, left.frame_ms};
     pair.labels.right.times = Times{right.build_ms, right.frame_ms};
   }
+  restore_default_signals();
   return run_window(pair);
 }
 
