@@ -105,7 +105,7 @@ junit_count() {
 
 stored_pictures() { find "$root/tests" -type f \( -name '*.png' -o -name '*.exr' \) -exec sha256sum {} + | sort -k2; }
 
-# Every scene, both renderers, each instruction set in $@: the same pixels as the first one's. One case a picture.
+# Every scene, both renderers, each instruction set in $@: the same file as the first one's. One case a picture.
 run_isas() {
   local start=$SECONDS good=0 bad=0 absent=0 program="$root/build/release/viewer/sidelight" dir="$root/build/isas"
   local scene renderer isa first=$1 name code
@@ -120,7 +120,7 @@ run_isas() {
           -o "$dir/$name-$isa.exr" || code=$?
         if ((code == 2)) && [[ $isa != "$first" ]]; then
           absent=$((absent + 1))   # this machine lacks it
-        elif ((code == 0)) && idiff -q -fail 0 -warn 0 "$dir/$name-$first.exr" "$dir/$name-$isa.exr"; then
+        elif ((code == 0)) && cmp -- "$dir/$name-$first.exr" "$dir/$name-$isa.exr"; then
           good=$((good + 1))
         else
           echo "FAILED: $name --isa $isa (exit code $code; pictures in $dir)"

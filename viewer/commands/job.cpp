@@ -35,11 +35,9 @@ std::vector<int> numbers(const std::string& text, char separator) {
 
 void apply_size(const JobFlags& flags, Scene& scene) {
   if (flags.size.empty()) return;
-  const std::vector<int> size = numbers(flags.size, 'x');
-  if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > 65535 || size[1] > 65535)
-    throw UsageError("-r wants WxH with sides from 1 to 65535, as in -r 640x480; got '" + flags.size + "'");
-  scene.width = size[0];
-  scene.height = size[1];
+  const glm::ivec2 size = parse_size(flags.size, "-r");
+  scene.width = size.x;
+  scene.height = size.y;
 }
 
 Rect parse_crop(const JobFlags& flags, const Scene& scene) {
@@ -70,9 +68,16 @@ void apply_trace(const JobFlags& flags, TraceSettings& trace) {
 
 }  // namespace
 
+glm::ivec2 parse_size(const std::string& text, const char* flag) {
+  const std::vector<int> size = numbers(text, 'x');
+  if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > 65535 || size[1] > 65535)
+    throw UsageError(fmt::format("{0} wants WxH with sides from 1 to 65535, as in {0} 640x480; got '{1}'", flag, text));
+  return {size[0], size[1]};
+}
+
 void add_job_flags(CLI::App& verb, JobFlags& flags) {
   verb.add_option("SCENE", flags.scene, "scene file (TOML)")->required();
-  verb.add_option("-r,--size", flags.size, "picture size WxH, instead of the scene's");
+  verb.add_option("-r,--resolution", flags.size, "picture size WxH, instead of the scene's");
   verb.add_option("--spp", flags.spp, "samples per pixel, a square number: 1, 4, 9, ...");
   verb.add_option("--depth", flags.depth, "rays along a path, the eye ray included")->check(CLI::Range(1, 1000));
   verb.add_option("--crop", flags.crop, "only pixels x0,y0,x1,y1 (half-open, y down)");

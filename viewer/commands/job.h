@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <glm/vec2.hpp>
 #include <string>
 
 #include "common/picture/frame.h"
@@ -28,6 +29,9 @@ struct JobFlags {
 
 // Adds the flags to a verb, with their help texts.
 void add_job_flags(CLI::App& verb, JobFlags& flags);
+
+// "640x480", sides from 1 to 65535. Throws UsageError, which names the flag.
+glm::ivec2 parse_size(const std::string& text, const char* flag);
 
 // A scene ready to be rendered.
 struct Job {
