@@ -3,6 +3,7 @@
 // and help that is true.
 #include <nlohmann/json.hpp>
 
+#include "tests/tier.h"
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
@@ -71,6 +72,9 @@ TEST_CASE("exit code 7: a full disk") {
 }
 
 TEST_CASE("exit code 7: a limit on the size of files leaves finished files only") {
+#ifdef __SANITIZE_THREAD__
+  return test::skip_test("ThreadSanitizer maps a file of its own, which the limit breaks");
+#else
   const Workplace here;
   // One block of 512 bytes: no picture fits. 8: some do, and those are whole.
   check_not_written(here.run_in_shell("ulimit -f 1; exec \"$0\" \"$@\"", render({"-q", "-o", "a.exr"})));
@@ -87,6 +91,7 @@ TEST_CASE("exit code 7: a limit on the size of files leaves finished files only"
   write_bytes(here / "old.exr", "an older picture");
   check_not_written(here.run_in_shell("ulimit -f 1; exec \"$0\" \"$@\"", render({"-q", "-o", "old.exr"})));
   CHECK(read_bytes(here / "old.exr") == "an older picture");
+#endif
 }
 
 TEST_CASE("output: nothing on standard output unasked and nothing at all with -q") {
@@ -213,7 +218,8 @@ TEST_CASE("help: fits a screen for every verb and its examples run") {
       // The line as a user types it, but in little, and without a display.
       std::istringstream words(line.substr(sizeof("  sidelight")));
       Arguments command{std::istream_iterator<std::string>(words), {}};
-      if (line.find(" -r ") == std::string::npos) command = command + Arguments{"-r", "64x48"};
+      const bool names_pixel = command[0] == "explain";  // which a little picture does not have
+      if (line.find(" -r ") == std::string::npos && !names_pixel) command = command + Arguments{"-r", "64x48"};
       const Outcome outcome = here.run(command);
       CAPTURE(outcome.err);
       const bool wants_window = command[0] == "view" && line.find("--screenshot") == std::string::npos;

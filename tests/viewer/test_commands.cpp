@@ -216,7 +216,7 @@ TEST_CASE("exit code 130: interrupted in the middle of a picture") {
   const Workplace here;
   const auto interrupt = [&](const Arguments& verb, int signal) {
     const Arguments command =
-        Arguments{SIDELIGHT_BINARY} + verb + Arguments{"-r", "4000x3000", "--spp", "36", "-q"};
+        Arguments{SIDELIGHT_BINARY} + verb + Arguments{"-r", "2000x1500", "--spp", "16", "-q"};
     Process process(command, here / ".");
     process.await_handler(signal);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));  // by now it renders; any moment must do
