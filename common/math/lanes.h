@@ -64,15 +64,6 @@ void store(const F& value, Scalar<F>* to) {
     value.copy_to(to, stdx::element_aligned);
 }
 
-// Lane i holds element(i).
-template <class F, class Element>
-F gather(const Element& element) {
-  if constexpr (kLanes<F> == 1)
-    return element(0);
-  else
-    return F([&](auto lane) { return element(static_cast<int>(lane)); });
-}
-
 template <class F>
 F square_root(const F& x) {
   using std::sqrt;

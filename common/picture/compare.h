@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The account of the difference between the z-buffer's picture and the tracer's: DESIGN section 2's ledger,
+// The account of the difference between the z-buffer's picture and the tracer's, the ledger:
 //   traced = R - S + M + G     (R: z-buffer; S, M, G: the tracer's shadow, reflection and refraction layers),
 // checked per pixel and channel, and a map that names each pixel's main cause.
 #pragma once

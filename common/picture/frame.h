@@ -18,7 +18,7 @@
 
 namespace sidelight {
 
-// What a renderer can deliver beside the colour. The first six are RGB layers of the ledger (DESIGN: section 2).
+// What a renderer can deliver beside the colour. The first six are RGB layers of the ledger (compare.h).
 enum class Layer { ambient, diffuse, specular, shadow, reflection, refraction, depth, object, primitive, normal };
 inline constexpr int kRgbLayers = 6;
 inline constexpr int kLayers = 10;

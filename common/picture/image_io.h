@@ -27,7 +27,7 @@ void write_png(const std::string& path, const Image8& image, const Metadata& met
 // "linear". Throws OutputError.
 void write_png_linear16(const std::string& path, const Frame& frame, const Metadata& metadata = {});
 
-// EXR: FLOAT R G B, then the layers the frame holds under the names of DESIGN section 6 (depth.Z, object.id
+// EXR: FLOAT R G B, then the layers the frame holds under these names (depth.Z, object.id
 // and primitive.id as UINT, normal.X/Y/Z, ambient.R/G/B, ...), in every bit. The display window is the whole
 // picture, the data window the crop. Throws OutputError.
 void write_exr(const std::string& path, const Frame& frame, const Metadata& metadata = {});

@@ -49,7 +49,7 @@ struct Range {
   std::string_view words;
 };
 
-// Beyond this, products of three coordinates leave what the exact predicates can hold (DESIGN 5).
+// Beyond this, products of three coordinates leave what the exact predicates can hold (model/exact.h).
 inline constexpr double kLargest = 1e15, kSmallestLength = 1e-30;
 inline constexpr Range kFinite{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                "a finite number"};
