@@ -9,7 +9,7 @@ namespace sidelight::raster {
 
 class Prepared {
  public:
-  explicit Prepared(const Scene& s) : scene(s), tables(make_shading_tables(s)) {}
+  Prepared(const Scene& s, const Needs& needs) : scene(s), tables(make_shading_tables(s, needs)) {}
 
   const Scene& scene;
   ShadingTables tables;

@@ -8,6 +8,7 @@
 #include "common/model/explanation.h"
 #include "common/picture/frame.h"
 #include "common/scene/camera.h"
+#include "common/scene/needs.h"
 #include "common/scene/scene.h"
 
 namespace sidelight::raster {
@@ -16,6 +17,8 @@ class Prepared;   // what depends on the scene only, and so survives a frame
 
 // `scene` must outlive the result. Its time is a renderer's build time.
 std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
+// The same, entering also what `needs` claims beyond needs_of(scene). Not one bit of the picture changes.
+std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene);
 
 // The picture. Layers: kRasterLayers. Throws Interrupted when options.cancel is raised.
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);

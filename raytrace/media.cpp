@@ -13,6 +13,16 @@ void cross(Media& media, std::uint32_t object, bool entering) {
     media.leave(object);
 }
 
+// Whether surfaces of two solids may lie together. A grazing ray alone cannot tell: to it, much lies close.
+bool meets(const Prepared& prepared, std::uint32_t a, std::uint32_t b) {
+  if (a == b) return true;
+  const auto bounds = [&](std::uint32_t solid) {
+    const auto at = std::lower_bound(prepared.solids.begin(), prepared.solids.end(), solid);
+    return prepared.bounds[static_cast<std::size_t>(at - prepared.solids.begin())];
+  };
+  return bounds(a).meets(bounds(b));
+}
+
 }  // namespace
 
 void Media::enter(std::uint32_t solid) {
@@ -36,15 +46,20 @@ Media media_behind(const Prepared& prepared, const Ray& ray, const Hit& hit, con
                    const Media& media, SignCounts& counts) {
   Media behind = media;
   if (prepared.solids.empty() || !prepared.scene.objects[surface.object].solid) return behind;
-  if (prepared.solids.size() == 1) {
-    cross(behind, surface.object, surface.entering);
+  const Scene& scene = prepared.scene;
+  const auto cross_at = [&](const Hit& each) {
+    const std::uint32_t object = scene.primitive_object[each.primitive];
+    if (scene.objects[object].solid && meets(prepared, object, surface.object))
+      cross(behind, object, each == hit ? surface.entering : locate(scene, ray, each, counts).entering);
+  };
+  if (!prepared.needs[Need::overlapping_solids] && scene.objects[surface.object].kind != ObjectKind::mesh) {
+    // Only the solid's own surface can lie together with the hit: no need to search the scene.
+    for (Hit each = hit; each.found() && each.t <= surface.together;
+         each = intersect(scene, hit.primitive, ray, each, counts))
+      cross_at(each);
     return behind;
   }
-  for (const Hit& each : hits_between(prepared, ray, hit, surface.together, counts)) {
-    const std::uint32_t object = prepared.scene.primitive_object[each.primitive];
-    if (prepared.scene.objects[object].solid)
-      cross(behind, object, locate(prepared.scene, ray, each, counts).entering);
-  }
+  for (const Hit& each : hits_between(prepared, ray, hit, surface.together, counts)) cross_at(each);
   return behind;
 }
 

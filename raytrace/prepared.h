@@ -13,13 +13,16 @@ namespace sidelight::raytrace {
 
 class Prepared {
  public:
-  explicit Prepared(const Scene& scene);
+  explicit Prepared(const Scene& all) : Prepared(all, needs_of(all)) {}
+  Prepared(const Scene& scene, const Needs& needs);
 
   const Scene& scene;
+  Needs needs;
   ShadingTables tables;
   Bvh bvh;                              // over spheres and triangles
   std::vector<std::uint32_t> planes;    // primitive numbers: infinite, so met one by one
   std::vector<std::uint32_t> solids;    // objects that bound a medium; empty where refraction is off
+  std::vector<Bounds> bounds;           // of each solid
 };
 
 // The nearest hit after `after`; not found() if there is none. The same as nearest_of_all, found faster.

@@ -8,6 +8,7 @@
 #include "common/model/explanation.h"
 #include "common/picture/frame.h"
 #include "common/scene/camera.h"
+#include "common/scene/needs.h"
 #include "common/scene/scene.h"
 
 namespace sidelight::raytrace {
@@ -16,6 +17,8 @@ class Prepared;   // the bounding volume hierarchy and whatever else depends on 
 
 // `scene` must outlive the result. Its time is a renderer's build time.
 std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
+// The same, entering also what `needs` claims beyond needs_of(scene). Not one bit of the picture changes.
+std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene);
 
 // The picture, as scene.trace asks for (depth, cut, switches). Layers: kRaytraceLayers. Throws Interrupted when
 // options.cancel is raised.

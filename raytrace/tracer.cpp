@@ -51,7 +51,10 @@ void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_
 
 }  // namespace
 
-std::shared_ptr<const Prepared> prepare(const Scene& scene, int) { return std::make_shared<const Prepared>(scene); }
+std::shared_ptr<const Prepared> prepare(const Scene& scene, int) { return prepare_for(needs_of(scene), scene); }
+std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene) {
+  return std::make_shared<const Prepared>(scene, needs);
+}
 
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);

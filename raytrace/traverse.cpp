@@ -36,7 +36,7 @@ void candidates(const Prepared& prepared, const Ray& ray, double limit, const Vi
 
 }  // namespace
 
-Prepared::Prepared(const Scene& s) : scene(s), tables(make_shading_tables(s)) {
+Prepared::Prepared(const Scene& s, const Needs& n) : scene(s), needs(n), tables(make_shading_tables(s, n)) {
   std::vector<Box> boxes;
   std::vector<std::uint32_t> items;
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
@@ -49,8 +49,12 @@ Prepared::Prepared(const Scene& s) : scene(s), tables(make_shading_tables(s)) {
     }
   }
   bvh = build_bvh(boxes, items);
+  if (!scene.trace.refraction || !needs[Need::refraction]) return;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
-    if (scene.objects[i].solid && scene.trace.refraction) solids.push_back(i);
+    if (scene.objects[i].solid) {
+      solids.push_back(i);
+      bounds.push_back(bounds_of(scene, scene.objects[i]));
+    }
 }
 
 Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts) {

@@ -47,7 +47,7 @@ Traced Whitted<Recorder>::trace(const Path& arriving) {
   out.normal = glm::vec3(surface.normal);
 
   add_local(surface, path.ray, out);
-  add_secondary(path, surface, out);
+  if (prepared_.needs[Need::mirrors] || prepared_.needs[Need::refraction]) add_secondary(path, surface, out);
   out.color = (out.color + out.mirrored) + out.refracted;
   recorder_.end(out.color);
   return out;
@@ -61,7 +61,7 @@ void Whitted<Recorder>::add_local(const Surface& surface, const Ray& ray, Traced
   const Vec3<float> ambient = ambient_term<float>(point, prepared_.tables.ambient_light);
   recorder_.surface(out.hit, surface, c1, ambient);
   Vec3<float> light = ambient, shadow{}, diffuse{}, specular{};
-  for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+  for (std::size_t i = 0; i < prepared_.tables.lights.size(); ++i) {
     const LightTerm<float> term = light_term<float>(point, prepared_.tables.lights[i]);
     diffuse = diffuse + term.diffuse;
     specular = specular + term.specular;
@@ -155,7 +155,9 @@ glm::vec3 Whitted<Recorder>::follow(Path path, const glm::dvec3& c) {
   const bool mirror = path.kind == RayKind::mirrored || path.kind == RayKind::internally_reflected;
   ++(mirror ? stats_.rays.reflection : stats_.rays.refraction);
   const Traced traced = trace(path);
-  const float w = distance_weight(scene_.trace.secondary_attenuation, path, traced.hit);
+  const float w = prepared_.needs[Need::secondary_attenuation]
+                      ? distance_weight(scene_.trace.secondary_attenuation, path, traced.hit)
+                      : 1.0f;
   recorder_.counted(c, w);
   return glm::vec3(c) * (w * traced.color);
 }

@@ -24,6 +24,7 @@ namespace sidelight {
 template <class T>
 struct ShadingLight {
   bool directional = false;
+  bool attenuated = true;              // else f(d) = 1
   std::array<T, 3> high{}, low{};      // point: position; directional: high is the unit vector to the light
   std::array<T, 3> intensity{};
   T q0 = 1, q1 = 0, q2 = 0;
@@ -85,7 +86,8 @@ LightTerm<F> light_term(const ShadingPoint<F>& point, const ShadingLight<Scalar<
     apart = distance2 > F(0);
     const F distance = square_root(select<F>(apart, distance2, F(1)));
     to_light = (F(1) / distance) * offset;
-    arriving = F(1) / ((F(light.q0) + F(light.q1) * distance) + F(light.q2) * distance2);
+    if (light.attenuated)
+      arriving = F(1) / ((F(light.q0) + F(light.q1) * distance) + F(light.q2) * distance2);
   }
 
   const F cosine = dot(point.normal, to_light);

@@ -35,8 +35,9 @@ Split split(const glm::dvec3& v) {
   return {high, to_float(v - glm::dvec3(high.x, high.y, high.z))};
 }
 
-ShadingLight<float> shading_light(const Light& light, double scale) {
+ShadingLight<float> shading_light(const Light& light, double scale, bool attenuated) {
   ShadingLight<float> out;
+  out.attenuated = attenuated && !light.directional;
   const auto array = [](const Vec3<float>& v) { return std::array<float, 3>{v.x, v.y, v.z}; };
   out.intensity = array(to_float(light.intensity));
   out.directional = light.directional;
@@ -62,7 +63,7 @@ void put(ShadingBatch::Rgb& to, std::size_t i, const Vec3<float>& v) {
 
 }  // namespace
 
-ShadingTables make_shading_tables(const Scene& scene) {
+ShadingTables make_shading_tables(const Scene& scene, const Needs& needs) {
   ShadingTables tables;
   const double most = extent(scene);
   tables.length_scale = most > 0 ? std::exp2(-std::ilogb(most)) : 1;
@@ -70,7 +71,9 @@ ShadingTables make_shading_tables(const Scene& scene) {
   for (const Material& m : scene.materials)
     tables.materials.push_back({to_float(m.ambient), to_float(m.diffuse), to_float(m.specular), to_float(m.local),
                                 to_float(m.reflect), to_float(m.refract), static_cast<float>(m.shininess)});
-  for (const Light& light : scene.lights) tables.lights.push_back(shading_light(light, tables.length_scale));
+  if (!needs[Need::live_lights]) return tables;
+  for (const Light& light : scene.lights)
+    tables.lights.push_back(shading_light(light, tables.length_scale, needs[Need::light_attenuation]));
   return tables;
 }
 

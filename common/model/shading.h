@@ -11,6 +11,7 @@
 #include "common/math/isa.h"
 #include "common/model/phong.h"
 #include "common/model/surface.h"
+#include "common/scene/needs.h"
 #include "common/scene/scene.h"
 
 namespace sidelight {
@@ -25,10 +26,10 @@ struct ShadingTables {
   double length_scale = 1;   // a power of two that brings the scene's extent near 1, so that no square leaves float
   Vec3<float> ambient_light;
   std::vector<ShadingMaterial> materials;
-  std::vector<ShadingLight<float>> lights;
+  std::vector<ShadingLight<float>> lights;   // none where no light is live
 };
 
-ShadingTables make_shading_tables(const Scene& scene);
+ShadingTables make_shading_tables(const Scene& scene, const Needs& needs);
 
 // The point as the kernel wants it, seen along `ray`.
 ShadingPoint<float> shading_point(const ShadingTables& tables, const Surface& surface, const Ray& ray);

@@ -37,6 +37,8 @@ Scene scene_with_lights(Random& random) {
   return scene;
 }
 
+ShadingTables tables_of(const Scene& scene) { return make_shading_tables(scene, needs_of(scene)); }
+
 struct Entry {
   ShadingPoint<float> point;
   ShadingMaterial material;
@@ -87,7 +89,7 @@ std::uint64_t differing_entries(const ShadingBatch& a, const ShadingBatch& b) {
 
 std::uint64_t entries_unlike_scalar(Isa isa) {
   Random random(7);
-  const ShadingTables tables = make_shading_tables(scene_with_lights(random));
+  const ShadingTables tables = tables_of(scene_with_lights(random));
   std::uint64_t differing = 0;
   ShadingBatch batch, scalar;  // reused as a renderer does: entries beyond the size hold what came before
   for (std::uint64_t rounds = 1 + tier_count("rays_per_case") / (64 * 32); rounds > 0; --rounds)
@@ -119,7 +121,7 @@ TEST_CASE("AVX-512 shades batches of 1 to 64 points to the bytes of the scalar t
 
 TEST_CASE("a batch holds c1 times ambient light plus the light terms in the scene's order") {
   Random random(8);
-  const ShadingTables tables = make_shading_tables(scene_with_lights(random));
+  const ShadingTables tables = tables_of(scene_with_lights(random));
   std::uint64_t differing = 0;
   for (std::uint64_t left = 1 + tier_count("rays_per_case") / 64; left > 0; --left) {
     ShadingBatch batch, expected;
@@ -157,7 +159,7 @@ TEST_CASE("a batch holds c1 times ambient light plus the light terms in the scen
 
 TEST_CASE("a batch of none changes nothing") {
   Random random(9);
-  const ShadingTables tables = make_shading_tables(scene_with_lights(random));
+  const ShadingTables tables = tables_of(scene_with_lights(random));
   ShadingBatch batch;
   const Entry entry = any_entry(tables, random);
   batch.add(entry.point, entry.material);
@@ -181,7 +183,7 @@ TEST_CASE("shading lengths are scaled by a power of two, which light and attenua
     light.attenuation = {1, 0.5 / unit, 0.25 / unit / unit};
     scene.lights.push_back(light);
     scene.camera.eye = glm::dvec3(0, 0, 8) * unit;
-    const ShadingTables tables = make_shading_tables(scene);
+    const ShadingTables tables = tables_of(scene);
     CHECK(tables.length_scale == std::exp2(-k - 3));
     ShadingPoint<float> point;
     point.normal = point.facing = {0, 0, 1};

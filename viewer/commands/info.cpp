@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "common/scene/needs.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/job.h"
 
@@ -33,6 +34,14 @@ void print_objects(const Scene& scene) {
   if (scene.objects.size() > kShown) fmt::print("  ... and {} more\n", scene.objects.size() - kShown);
 }
 
+void print_needs(const Scene& scene) {
+  const Needs needs = needs_of(scene);
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < kNeeds; ++i)
+    if (needs.has[i]) names.push_back(kNeedNames[i]);
+  fmt::print("needs      {}\n", names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", ")));
+}
+
 void print_lights(const Scene& scene) {
   fmt::print("lights     {}, ambient {}\n", scene.lights.size(), vector_text(scene.ambient));
   for (const Light& light : scene.lights) {
@@ -59,6 +68,7 @@ int run_info(const JobFlags& flags) {
   fmt::print("trace      depth {}, cut {:g}, w(r) {}, shadows {}, reflection {}, refraction {}\n", trace.depth,
              trace.contribution_cut, attenuation_text(trace.secondary_attenuation), on(trace.shadows),
              on(trace.reflection), on(trace.refraction));
+  print_needs(scene);
   fmt::print("hash       {}\n", scene.hash);
   return 0;
 }

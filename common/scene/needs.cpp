@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "common/scene/needs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace sidelight {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool positive(const glm::dvec3& color) { return color.x > 0 || color.y > 0 || color.z > 0; }
+bool falls(const Attenuation& q) { return q.q0 != 1 || q.q1 != 0 || q.q2 != 0; }
+
+Bounds padded(Bounds bounds) {
+  double reach = 0;
+  for (int i = 0; i < 3; ++i) reach = std::max({reach, std::abs(bounds.low[i]), std::abs(bounds.high[i])});
+  return {bounds.low - 0x1p-30 * reach, bounds.high + 0x1p-30 * reach};
+}
+
+// The half-space { p : n . (p - point) <= 0 }.
+Bounds bounds_of_plane(const Plane& plane) {
+  Bounds bounds{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
+  for (int i = 0; i < 3; ++i) {
+    const double pad = 0x1p-30 * std::abs(plane.point[i]);
+    if (plane.normal[i] == 1) bounds.high[i] = plane.point[i] + pad;
+    if (plane.normal[i] == -1) bounds.low[i] = plane.point[i] - pad;
+  }
+  return bounds;
+}
+
+bool any_solids_meet(const Scene& scene) {
+  std::vector<Bounds> solids;
+  for (const Object& object : scene.objects)
+    if (object.solid) solids.push_back(bounds_of(scene, object));
+  // Sweep along x: those that are open when one begins are all it can meet.
+  std::sort(solids.begin(), solids.end(), [](const Bounds& a, const Bounds& b) { return a.low.x < b.low.x; });
+  std::vector<const Bounds*> open;
+  for (const Bounds& solid : solids) {
+    std::erase_if(open, [&](const Bounds* other) { return other->high.x < solid.low.x; });
+    if (std::any_of(open.begin(), open.end(), [&](const Bounds* other) { return other->meets(solid); }))
+      return true;
+    open.push_back(&solid);
+  }
+  return false;
+}
+
+}  // namespace
+
+bool Bounds::meets(const Bounds& other) const {
+  for (int i = 0; i < 3; ++i)
+    if (high[i] < other.low[i] || other.high[i] < low[i]) return false;
+  return true;
+}
+
+Bounds bounds_of(const Scene& scene, const Object& object) {
+  if (object.kind == ObjectKind::plane) return bounds_of_plane(scene.planes[object.first]);
+  if (object.kind == ObjectKind::sphere) {
+    const Sphere& sphere = scene.spheres[object.first];
+    return padded({sphere.center - sphere.radius, sphere.center + sphere.radius});
+  }
+  Bounds bounds{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+  for (std::uint32_t i = object.first; i < object.first + object.count; ++i)
+    for (const std::uint32_t v : scene.triangles[i].vertex) {
+      bounds.low = glm::min(bounds.low, scene.positions[v]);
+      bounds.high = glm::max(bounds.high, scene.positions[v]);
+    }
+  return padded(bounds);
+}
+
+Needs needs_of(const Scene& scene) {
+  Needs needs;
+  std::vector<char> used(scene.materials.size(), 0);
+  for (const Sphere& sphere : scene.spheres) used[sphere.material] = 1;
+  for (const Plane& plane : scene.planes) used[plane.material] = 1;
+  for (const Triangle& triangle : scene.triangles) used[triangle.material] = 1;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    needs[Need::mirrors] |= scene.trace.reflection && positive(scene.materials[i].reflect);
+    needs[Need::refraction] |= scene.trace.refraction && positive(scene.materials[i].refract);
+  }
+  needs[Need::overlapping_solids] = needs[Need::refraction] && any_solids_meet(scene);
+  needs[Need::secondary_attenuation] =
+      (needs[Need::mirrors] || needs[Need::refraction]) && falls(scene.trace.secondary_attenuation);
+  for (const Light& light : scene.lights) {
+    needs[Need::live_lights] |= positive(light.intensity);
+    needs[Need::light_attenuation] |=
+        positive(light.intensity) && !light.directional && falls(light.attenuation);
+  }
+  needs[Need::spheres] = !scene.spheres.empty();
+  needs[Need::planes] = !scene.planes.empty();
+  needs[Need::meshes] = !scene.triangles.empty();
+  return needs;
+}
+
+}  // namespace sidelight

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// What a scene needs, and that nothing else is needed: a claim beyond it changes no bit.
+#include "common/scene/needs.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/support/scenes.h"
+
+using namespace sidelight;
+using namespace sidelight::test;
+
+namespace {
+
+// A glass ball of radius 1 at (x, 0, 0).
+void add_glass(Scene& scene, double x) {
+  Material glass;
+  glass.refract = glm::dvec3(0.9);
+  glass.ior = 1.5;
+  Sphere ball;
+  ball.center = {x, 0, 0};
+  ball.material = add_material(scene, glass);
+  add_sphere(scene, ball, {});
+}
+
+std::vector<std::string_view> names(const Scene& scene) {
+  const Needs needs = needs_of(scene);
+  std::vector<std::string_view> out;
+  for (std::size_t i = 0; i < kNeeds; ++i)
+    if (needs.has[i]) out.push_back(kNeedNames[i]);
+  return out;
+}
+
+using Names = std::vector<std::string_view>;
+
+}  // namespace
+
+TEST_CASE("needs: an empty scene needs nothing") { CHECK(names(Scene{}) == Names{}); }
+
+TEST_CASE("needs: a mirror counts where it is used and where reflection is on") {
+  Scene scene = empty_scene();
+  Material mirror;
+  mirror.reflect = {0, 0, 0.1};
+  Sphere ball;
+  ball.material = add_material(scene, mirror);
+  CHECK(names(scene) == Names{});
+  add_sphere(scene, ball, {});
+  CHECK(names(scene) == Names{"mirrors", "spheres"});
+  scene.trace.secondary_attenuation = {1, 0, 0.5};
+  CHECK(names(scene) == Names{"mirrors", "secondary attenuation", "spheres"});
+  scene.trace.reflection = false;
+  CHECK(names(scene) == Names{"spheres"});
+}
+
+TEST_CASE("needs: lights count where they are not black, their fall where it is one") {
+  Scene scene = empty_scene();
+  Light light;
+  light.attenuation = {0, 0, 1};
+  scene.lights = {light};
+  CHECK(names(scene) == Names{});
+  scene.lights[0].intensity.y = 1;
+  CHECK(names(scene) == Names{"light attenuation", "live lights"});
+  scene.lights[0].attenuation = {};
+  CHECK(names(scene) == Names{"live lights"});
+}
+
+TEST_CASE("needs: solids overlap where their bounds meet, touching included") {
+  for (const auto& [second, meet] :
+       std::vector<std::pair<double, bool>>{{1.5, true}, {2, true}, {2.001, false}}) {
+    Scene scene = empty_scene();
+    add_glass(scene, 0);
+    add_glass(scene, second);
+    CHECK_MESSAGE(needs_of(scene)[Need::overlapping_solids] == meet, second);
+    // A third between the two, in the file's order or not
+    Scene three = empty_scene();
+    add_glass(three, second);
+    add_glass(three, -10);
+    add_glass(three, 0);
+    CHECK_MESSAGE(needs_of(three)[Need::overlapping_solids] == meet, second);
+  }
+}
+
+TEST_CASE("needs: water is a half-space, bounded above where its surface is level") {
+  for (const auto& [height, meet] : std::vector<std::pair<double, bool>>{{-1, true}, {-1.001, false}}) {
+    Scene scene = empty_scene();
+    add_glass(scene, 0);
+    Plane water;
+    water.point = {5, height, 7};
+    water.material = scene.spheres[0].material;
+    add_plane(scene, water, {});
+    CHECK_MESSAGE(needs_of(scene)[Need::overlapping_solids] == meet, height);
+    scene.planes[0].normal = glm::normalize(glm::dvec3(1, 8, 0));
+    CHECK(needs_of(scene)[Need::overlapping_solids]);
+  }
+}
