@@ -79,6 +79,7 @@ Frame make_frame(int width, int height, int n, const RenderOptions& options) {
   if (asked_for(options, Layer::object)) frame.object_id.resize(pixels);
   if (asked_for(options, Layer::primitive)) frame.primitive_id.resize(pixels);
   if (asked_for(options, Layer::normal)) frame.normal.resize(pixels);
+  if (asked_for(options, Layer::cost)) frame.cost.resize(pixels);
   if (options.keep_samples) {
     const std::size_t samples = pixels * static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
     frame.sample_primitive.resize(samples);
@@ -111,6 +112,7 @@ std::string first_non_finite(const Frame& frame) {
   for (std::size_t i = 0; i < frame.rgb.size(); ++i) look_for_fault(frame.rgb[i], kLayerNames[i], fault);
   look_for_fault(frame.depth, "depth", fault);
   look_for_fault(frame.normal, "normal", fault);
+  look_for_fault(frame.cost, "cost", fault);
   look_for_sample_fault(frame, fault);
   if (fault.name.empty()) return {};
 

@@ -19,22 +19,26 @@
 namespace sidelight {
 
 // What a renderer can deliver beside the colour. The first six are RGB layers of the ledger (compare.h).
-enum class Layer { ambient, diffuse, specular, shadow, reflection, refraction, depth, object, primitive, normal };
+enum class Layer {
+  ambient, diffuse, specular, shadow, reflection, refraction, depth, object, primitive, normal, cost
+};
 inline constexpr int kRgbLayers = 6;
-inline constexpr int kLayers = 10;
+inline constexpr int kLayers = 11;
 inline constexpr std::array<std::string_view, kLayers> kLayerNames{
     "ambient",    "diffuse", "specular", "shadow",    "reflection",
-    "refraction", "depth",   "object",   "primitive", "normal"};
+    "refraction", "depth",   "object",   "primitive", "normal", "cost"};
 
 using LayerMask = unsigned;
 constexpr LayerMask layer_bit(Layer layer) { return 1u << static_cast<unsigned>(layer); }
 inline constexpr LayerMask kVisibilityLayers =
     layer_bit(Layer::depth) | layer_bit(Layer::object) | layer_bit(Layer::primitive) | layer_bit(Layer::normal);
+// What render() and render_reference() of a renderer make alike.
 inline constexpr LayerMask kRasterLayers =
     kVisibilityLayers | layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
 inline constexpr LayerMask kLedgerLayers =
     layer_bit(Layer::shadow) | layer_bit(Layer::reflection) | layer_bit(Layer::refraction);
 inline constexpr LayerMask kRaytraceLayers = kRasterLayers | kLedgerLayers;
+inline constexpr LayerMask kAllLayers = kRaytraceLayers | layer_bit(Layer::cost);
 
 // Half-open pixel rectangle, y down.
 struct Rect {
@@ -86,6 +90,9 @@ struct Frame {
   std::vector<std::uint32_t> object_id;        // 0: background, else 1 + the object's number
   std::vector<std::uint32_t> primitive_id;     // likewise
   std::vector<glm::vec3> normal;               // N, unit, world space; 0 on background
+  // Ray-primitive tests made for the pixel, all its samples together; empty unless asked for. Whole numbers, those
+  // above 2^24 rounded to a float.
+  std::vector<float> cost;
   // Of every sample (keep_samples), n*n a pixel, row by row within the pixel: primitive or kNone, and its depth t.
   std::vector<std::uint32_t> sample_primitive;
   std::vector<double> sample_depth;

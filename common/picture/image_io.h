@@ -28,8 +28,8 @@ void write_png(const std::string& path, const Image8& image, const Metadata& met
 void write_png_linear16(const std::string& path, const Frame& frame, const Metadata& metadata = {});
 
 // EXR: FLOAT R G B, then the layers the frame holds under these names (depth.Z, object.id
-// and primitive.id as UINT, normal.X/Y/Z, ambient.R/G/B, ...), in every bit. The display window is the whole
-// picture, the data window the crop. Throws OutputError.
+// and primitive.id as UINT, normal.X/Y/Z, cost.tests, ambient.R/G/B, ...), in every bit. The display window is
+// the whole picture, the data window the crop. Throws OutputError.
 void write_exr(const std::string& path, const Frame& frame, const Metadata& metadata = {});
 
 // A picture file as read: float channels decoded to linear (8- and 16-bit PNG through sRGB unless its

@@ -54,6 +54,7 @@ std::vector<Channel> channels_of(const Frame& frame) {
   add_channel(frame.object_id, "object.id", OIIO::TypeUInt32, channels);
   add_channel(frame.primitive_id, "primitive.id", OIIO::TypeUInt32, channels);
   add_channels(frame.normal, "normal.", "XYZ", channels);
+  add_channel(frame.cost, "cost.tests", OIIO::TypeFloat, channels);
   return channels;
 }
 

@@ -45,6 +45,7 @@ inline void fill_with_noise(Frame& frame, unsigned seed) {
   for (std::vector<glm::vec3>& layer : frame.rgb) fill(layer);
   fill(frame.normal);
   for (float& depth : frame.depth) depth = number();
+  for (float& tests : frame.cost) tests = number();
   for (std::uint32_t& id : frame.object_id) id = static_cast<std::uint32_t>(generator());
   for (std::uint32_t& id : frame.primitive_id) id = static_cast<std::uint32_t>(generator());
 }

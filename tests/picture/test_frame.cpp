@@ -18,15 +18,17 @@ TEST_CASE("a frame holds what was asked for and nothing else") {
   CHECK(plain.object_id.empty());
   CHECK(plain.primitive_id.empty());
   CHECK(plain.normal.empty());
+  CHECK(plain.cost.empty());
   CHECK(plain.sample_primitive.empty());
   CHECK(plain.sample_depth.empty());
 
-  const Frame all = make_frame(7, 5, 2, options_with(kRaytraceLayers, true));
+  const Frame all = make_frame(7, 5, 2, options_with(kAllLayers, true));
   for (const auto& layer : all.rgb) CHECK(layer == std::vector<glm::vec3>(35, glm::vec3(0)));
   CHECK(all.depth.size() == 35);
   CHECK(all.object_id.size() == 35);
   CHECK(all.primitive_id.size() == 35);
   CHECK(all.normal.size() == 35);
+  CHECK(all.cost == std::vector<float>(35, 0.0f));
   CHECK(all.sample_primitive.size() == 35 * 4);
   CHECK(all.sample_depth.size() == 35 * 4);
 
@@ -53,11 +55,11 @@ TEST_CASE("frame_bytes is the size of two frames, at any size") {
   const auto bytes_of = [](const Frame& f) {
     std::size_t bytes = (f.color.size() + f.normal.size()) * sizeof(glm::vec3);
     for (const auto& layer : f.rgb) bytes += layer.size() * sizeof(glm::vec3);
-    bytes +=
-        f.depth.size() * sizeof(float) + (f.object_id.size() + f.primitive_id.size()) * sizeof(std::uint32_t);
+    bytes += (f.depth.size() + f.cost.size()) * sizeof(float);
+    bytes += (f.object_id.size() + f.primitive_id.size()) * sizeof(std::uint32_t);
     return bytes + f.sample_primitive.size() * sizeof(std::uint32_t) + f.sample_depth.size() * sizeof(double);
   };
-  for (const LayerMask layers : {LayerMask{0}, kVisibilityLayers, kLedgerLayers, kRaytraceLayers}) {
+  for (const LayerMask layers : {LayerMask{0}, kVisibilityLayers, kLedgerLayers, kAllLayers}) {
     for (const bool keep_samples : {false, true}) {
       const RenderOptions options = options_with(layers, keep_samples);
       CHECK(frame_bytes(33, 17, 3, options) == 2 * bytes_of(make_frame(33, 17, 3, options)));
@@ -65,7 +67,7 @@ TEST_CASE("frame_bytes is the size of two frames, at any size") {
   }
   const std::uint64_t pixels = std::uint64_t{65535} * 65535;
   CHECK(frame_bytes(65535, 65535, 8, options_with(0, true)) == 2 * pixels * (12 + 64 * 12));
-  CHECK(frame_bytes(65535, 65535, 64, options_with(kRaytraceLayers, true)) == 2 * pixels * (108 + 4096 * 12));
+  CHECK(frame_bytes(65535, 65535, 64, options_with(kAllLayers, true)) == 2 * pixels * (112 + 4096 * 12));
   constexpr int kMost = std::numeric_limits<int>::max();
   CHECK(frame_bytes(kMost, kMost, kMost, options_with(0, true)) == std::numeric_limits<std::uint64_t>::max());
   CHECK(frame_bytes(0, 480, 1, {}) == 0);
@@ -77,7 +79,7 @@ TEST_CASE("frame_bytes is the size of two frames, at any size") {
 
 TEST_CASE("the first pixel that is not finite is named") {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  RenderOptions options = options_with(kRaytraceLayers, true);
+  RenderOptions options = options_with(kAllLayers, true);
   options.crop = {10, 40, 14, 44};
   Frame frame = make_frame(100, 100, 2, options);
   frame.sample_primitive.assign(frame.sample_primitive.size(), kNone);
@@ -88,6 +90,8 @@ TEST_CASE("the first pixel that is not finite is named") {
   frame.sample_primitive[4 * frame.index(13, 43) + 3] = 7;
   frame.sample_depth[4 * frame.index(13, 43) + 3] = std::numeric_limits<double>::quiet_NaN();
   CHECK(first_non_finite(frame) == "sample depth at pixel (13, 43)");
+  frame.cost[frame.index(12, 43)] = inf;
+  CHECK(first_non_finite(frame) == "cost at pixel (12, 43)");
   frame.normal[frame.index(12, 43)].z = -inf;
   CHECK(first_non_finite(frame) == "normal at pixel (12, 43)");
   frame.depth[frame.index(11, 43)] = inf;

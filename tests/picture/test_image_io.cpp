@@ -46,7 +46,7 @@ void check_everything(const ImageFile& image, const Frame& frame) {
   CHECK(image.full_width == frame.full_width);
   CHECK(image.full_height == frame.full_height);
   CHECK_FALSE(image.eight_bit);
-  CHECK(image.channels.size() == 3 + 6 * 3 + 1 + 3);
+  CHECK(image.channels.size() == 3 + 6 * 3 + 1 + 3 + 1);
   CHECK(image.ids.size() == 2);
   check_rgb(image, "", "RGB", frame.color);
   for (std::size_t i = 0; i < frame.rgb.size(); ++i) {
@@ -54,12 +54,13 @@ void check_everything(const ImageFile& image, const Frame& frame) {
   }
   check_rgb(image, "normal.", "XYZ", frame.normal);
   CHECK(same_bits(image.channels.at("depth.Z"), frame.depth));
+  CHECK(same_bits(image.channels.at("cost.tests"), frame.cost));
   CHECK(image.ids.at("object.id") == frame.object_id);
   CHECK(image.ids.at("primitive.id") == frame.primitive_id);
 }
 
 Frame noisy_frame(int width, int height, const Rect& crop = {}) {
-  RenderOptions options = options_with(kRaytraceLayers);
+  RenderOptions options = options_with(kAllLayers);
   options.crop = crop;
   Frame frame = make_frame(width, height, 1, options);
   fill_with_noise(frame, 1);
