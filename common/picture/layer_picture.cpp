@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Sources: D. Knuth, "The Art of Computer Programming" 3, section 6.4 (multiples of the golden ratio fall into the
-// largest gaps left by those before); B. Ottosson, "A perceptual color space for image processing", 2020 (Oklab and its
-// matrices); J. Nunez et al., "Optimizing colormaps with consideration for color vision deficiency", PLoS ONE 13(7),
-// 2018 (even steps of lightness along blue to yellow).
+// Sources: D. Knuth, "The Art of Computer Programming" 3, section 6.4 (multiples of the golden ratio fall
+// into the largest gaps left by those before); B. Ottosson, "A perceptual color space for image processing",
+// 2020 (Oklab and its matrices); J. Nunez et al., "Optimizing colormaps with consideration for color vision
+// deficiency", PLoS ONE 13(7), 2018 (even steps of lightness along blue to yellow).
 #include "common/picture/layer_picture.h"
 
 #include <algorithm>
@@ -89,8 +89,8 @@ Image8 layer_picture(const Frame& frame, Layer layer) {
   return to_image8(frame.layer(layer), frame.width(), frame.height());
 }
 
-// Hue, saturation, value. The hue turns by the golden ratio with each id; ids whose hues come close, 3, 5, 8, ... apart,
-// differ in the other two, which repeat every 2 and 3.
+// Hue, saturation, value. The hue turns by the golden ratio with each id; ids whose hues come close, 3, 5, 8,
+// ... apart, differ in the other two, which repeat every 2 and 3.
 Color8 id_color(std::uint32_t id) {
   if (id == 0) return kBlack;
   constexpr std::uint32_t kGolden = 2654435769u;  // 2^32 / 1.618...

@@ -122,8 +122,8 @@ TEST_CASE("layer picture: neighbouring ids differ clearly, and the first of them
 
 TEST_CASE("layer picture: the colour of an id never changes") {
   CHECK(id_color(0) == kBlack);
-  // Hue 3.708 sixths of the circle, 1.708 from green and 0.292 from blue; saturation 0.5, value 0.8: red keeps half
-  // of 204, green 1 - 0.5 * 0.708, blue all of it.
+  // Hue 3.708 sixths of the circle, 1.708 from green and 0.292 from blue; saturation 0.5, value 0.8: red
+  // keeps half of 204, green 1 - 0.5 * 0.708, blue all of it.
   CHECK(id_color(1) == Color8{102, 132, 204});
 }
 
@@ -151,8 +151,9 @@ TEST_CASE("layer picture: cost runs from 0 to the frame's greatest") {
 TEST_CASE("layer picture: amounts grow lighter, step by step, from blue to yellow") {
   for (int i = 1; i <= 64; ++i)
     CHECK(luminance(amount_color(i / 64.0)) > luminance(amount_color((i - 1) / 64.0)));
-  // To the eye lightness goes about with the cube root of luminance. (About: 15 %, of which 3 % are the rounding of the
-  // darkest steps to codes; Oklab's own lightness, which is exactly even, is made of three cube roots.)
+  // To the eye lightness goes about with the cube root of luminance. (About: 15 %, of which 3 % are the
+  // rounding of the darkest steps to codes; Oklab's own lightness, which is exactly even, is made of three
+  // cube roots.)
   const auto lightness = [](double amount) { return std::cbrt(luminance(amount_color(amount))); };
   const double mean = (lightness(1) - lightness(0)) / 16;
   for (int i = 1; i <= 16; ++i)
