@@ -27,7 +27,7 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
     if (options.cancel && *options.cancel) throw Interrupted();
     SignCounts& counts = stats[static_cast<std::size_t>(thread)].signs;
     NoFragments nothing;
-    DepthTile depth(camera, grid.tile(tile), nothing);
+    DepthTile depth(camera, grid.tile(tile), nothing, !frame.cost.empty());
     bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(prepared.scene, primitive, counts); });
     TileResolve resolve(prepared, camera, options.isa, grid.tile(tile));
     resolve.shade(depth, counts);

@@ -20,7 +20,7 @@ std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
 // The same, entering also what `needs` claims beyond needs_of(scene). Not one bit of the picture changes.
 std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene);
 
-// The picture. Layers: kRasterLayers. Throws Interrupted when options.cancel is raised.
+// The picture. Layers: kRasterLayers and cost. Throws Interrupted when options.cancel is raised.
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
 // What competed for the sample at lattice position (X, Y) and how the winner was lit, told by the code that render()
@@ -28,6 +28,7 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
 RasterRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y);
 
 // The lecture's loop, in double, one sample at a time: the text to read first, and the oracle of render().
+// Layers: kRasterLayers.
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);
 
 }  // namespace sidelight::raster

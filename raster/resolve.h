@@ -21,7 +21,10 @@ class TileResolve {
   void shade(const DepthTile<Recorder>& tile, SignCounts& counts) {
     const int n = camera_.n;
     for (int Y = n * pixels_.y0; Y < n * pixels_.y1; ++Y)
-      for (int X = n * pixels_.x0; X < n * pixels_.x1; ++X) shade_sample(X, Y, tile.at(X, Y), counts);
+      for (int X = n * pixels_.x0; X < n * pixels_.x1; ++X) {
+        samples_[index(X, Y)].tests = tile.tests(X, Y);
+        shade_sample(X, Y, tile.at(X, Y), counts);
+      }
     flush();
   }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One tile's z-buffer: depth and primitive of the nearest surface at each of its samples, and nothing else.
+// One tile's z-buffer: depth and primitive of the nearest surface at each of its samples and, if asked for,
+// how many primitives were tried there.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "common/model/explanation.h"
@@ -28,13 +30,15 @@ template <class Recorder>
 class DepthTile {
  public:
   // An empty z-buffer for the samples of `pixels`.
-  DepthTile(const Camera& camera, const Rect& pixels, Recorder& recorder);
+  DepthTile(const Camera& camera, const Rect& pixels, Recorder& recorder, bool count_tests = false);
 
   // Keeps the primitive wherever it is nearer than what the samples hold.
   void draw(const Scene& scene, std::uint32_t primitive, SignCounts& counts);
 
   // The nearest hit at lattice sample (X, Y) of the tile; not found() on background.
   const Hit& at(int X, int Y) const { return nearest_[index(X, Y)]; }
+  // The primitives tried there so far; 0 unless they are counted.
+  std::uint32_t tests(int X, int Y) const { return tests_.empty() ? 0 : tests_[index(X, Y)]; }
 
  private:
   std::size_t index(int X, int Y) const {
@@ -50,6 +54,7 @@ class DepthTile {
     if (kept) nearest = hit;
     recorder_.fragment(X, Y, hit, kept);
   }
+  void add_tests(const SampleBox& box);
   void draw_triangle(const Scene& scene, std::uint32_t primitive, const Triangle& triangle, const SampleBox& box,
                      SignCounts& counts);
 
@@ -58,6 +63,7 @@ class DepthTile {
   std::vector<glm::dvec3> columns_, rows_;   // the summands of Camera::direction
   glm::dvec3 axis_;
   std::vector<Hit> nearest_;
+  std::vector<std::uint32_t> tests_;   // empty unless they are counted
   Recorder& recorder_;
 };
 

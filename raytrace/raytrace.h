@@ -20,7 +20,7 @@ std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
 // The same, entering also what `needs` claims beyond needs_of(scene). Not one bit of the picture changes.
 std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene);
 
-// The picture, as scene.trace asks for (depth, cut, switches). Layers: kRaytraceLayers. Throws Interrupted when
+// The picture, as scene.trace asks for (depth, cut, switches). Layers: kAllLayers. Throws Interrupted when
 // options.cancel is raised.
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
@@ -29,6 +29,7 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
 RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y);
 
 // Brute force in double, as the lecture writes it: the text to read first, and the oracle of render().
+// Layers: kRaytraceLayers.
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);
 
 }  // namespace sidelight::raytrace

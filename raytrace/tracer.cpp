@@ -43,7 +43,10 @@ void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_
     for (int Y = n * y; Y < n * (y + 1); ++Y)
       for (int X = n * x; X < n * (x + 1); ++X) {
         ++stats.rays.primary;
-        pixel.add(to_sample(whitted.trace(eye_path(camera, eye_media, X, Y))));
+        const std::uint64_t tests_before = stats.signs.tests;
+        Sample sample = to_sample(whitted.trace(eye_path(camera, eye_media, X, Y)));
+        sample.tests = stats.signs.tests - tests_before;
+        pixel.add(sample);
       }
     pixel.write(x, y);
   }

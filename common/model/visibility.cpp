@@ -238,6 +238,7 @@ double triangle_depth(const TriangleView& view, const DepthPlane& plane, const g
 }
 
 Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after, SignCounts& counts) {
+  ++counts.tests;
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   switch (ref.kind) {
     case ObjectKind::sphere: return intersect_sphere(scene.spheres[ref.index], primitive, ray, after);

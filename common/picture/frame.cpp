@@ -57,6 +57,7 @@ void RenderStats::add_counts(const RenderStats& other) {
   signs.filtered += other.signs.filtered;
   signs.in_double += other.signs.in_double;
   signs.exact += other.signs.exact;
+  signs.tests += other.signs.tests;
   self_shadowed += other.self_shadowed;
 }
 

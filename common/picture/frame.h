@@ -32,7 +32,7 @@ using LayerMask = unsigned;
 constexpr LayerMask layer_bit(Layer layer) { return 1u << static_cast<unsigned>(layer); }
 inline constexpr LayerMask kVisibilityLayers =
     layer_bit(Layer::depth) | layer_bit(Layer::object) | layer_bit(Layer::primitive) | layer_bit(Layer::normal);
-// What render() and render_reference() of a renderer make alike.
+// What render() and render_reference() of a renderer make alike; only render() makes `cost`.
 inline constexpr LayerMask kRasterLayers =
     kVisibilityLayers | layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
 inline constexpr LayerMask kLedgerLayers =
@@ -63,9 +63,11 @@ struct RayCounts {
   std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
 };
 
-// How many edge and side signs each level of exactness decided.
+// The work of visibility: edge and side signs by the level of exactness that decided them, and tests of a ray
+// against a primitive. A z-buffer's test is a primitive tried at a sample that its box covers.
 struct SignCounts {
   std::uint64_t filtered = 0, in_double = 0, exact = 0;
+  std::uint64_t tests = 0;
 };
 
 struct RenderStats {
@@ -90,8 +92,8 @@ struct Frame {
   std::vector<std::uint32_t> object_id;        // 0: background, else 1 + the object's number
   std::vector<std::uint32_t> primitive_id;     // likewise
   std::vector<glm::vec3> normal;               // N, unit, world space; 0 on background
-  // Ray-primitive tests made for the pixel, all its samples together; empty unless asked for. Whole numbers, those
-  // above 2^24 rounded to a float.
+  // SignCounts::tests made for the pixel, all its samples together; empty unless asked for. Whole numbers,
+  // rounded to a float above 2^24.
   std::vector<float> cost;
   // Of every sample (keep_samples), n*n a pixel, row by row within the pixel: primitive or kNone, and its depth t.
   std::vector<std::uint32_t> sample_primitive;

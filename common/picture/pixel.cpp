@@ -11,6 +11,7 @@ void PixelWriter::add(const Sample& sample) {
   color_.add(sample.color);
   for (std::size_t l = 0; l < layer_.size(); ++l)
     if (!frame_.rgb[l].empty()) layer_[l].add(sample.layer[l]);
+  tests_ += sample.tests;
   const int n = frame_.n;
   if (count_ == (n / 2) * n + n / 2) center_ = sample;
   if (!frame_.sample_primitive.empty()) {
@@ -30,12 +31,14 @@ void PixelWriter::write(int x, int y) {
   if (!frame_.object_id.empty()) frame_.object_id[i] = center_.object;
   if (!frame_.primitive_id.empty()) frame_.primitive_id[i] = center_.primitive;
   if (!frame_.normal.empty()) frame_.normal[i] = center_.normal;
+  if (!frame_.cost.empty()) frame_.cost[i] = static_cast<float>(tests_);
   const auto first = static_cast<std::ptrdiff_t>(i) * frame_.n * frame_.n;
   std::copy(kept_primitive_.begin(), kept_primitive_.end(), frame_.sample_primitive.begin() + first);
   std::copy(kept_t_.begin(), kept_t_.end(), frame_.sample_depth.begin() + first);
 
   color_ = {};
   layer_ = {};
+  tests_ = 0;
   kept_primitive_.clear();
   kept_t_.clear();
   count_ = 0;

@@ -85,6 +85,7 @@ void for_each_array(const Frame& a, const Frame& b, const Visit& visit) {
   visit("object", a.object_id, b.object_id, 1);
   visit("primitive", a.primitive_id, b.primitive_id, 1);
   visit("normal", a.normal, b.normal, 1);
+  visit("cost", a.cost, b.cost, 1);
   visit("primitives of samples", a.sample_primitive, b.sample_primitive, samples);
   visit("depths of samples", a.sample_depth, b.sample_depth, samples);
 }

@@ -60,7 +60,7 @@ void check_same_channels(const Channels& a, const Channels& b, const std::vector
 }
 
 RenderOptions plainest() {
-  RenderOptions options = keeping(kRaytraceLayers);
+  RenderOptions options = keeping(kAllLayers);
   options.threads = 1;
   options.isa = Isa::scalar;
   return options;
@@ -167,9 +167,10 @@ TEST_CASE("promises: a crop is that part of the whole picture") {
     CAPTURE(file);
     const Scene scene = load_scene(file);
     const Camera camera = small_camera(scene, 3);
-    const Frame flat = rastered(scene, camera), deep = traced(scene, camera);
+    const RenderOptions whole = keeping(kAllLayers);
+    const Frame flat = rastered(scene, camera, whole), deep = traced(scene, camera, whole);
     for (const Rect& crop : {Rect{5, 3, 42, 31}, Rect{66, 48, 67, 49}, Rect{0, 20, 67, 21}}) {
-      RenderOptions options = keeping(kRaytraceLayers);
+      RenderOptions options = whole;
       options.crop = crop;
       CHECK(differences(rastered(scene, camera, options), flat) == "");
       CHECK(differences(traced(scene, camera, options), deep) == "");

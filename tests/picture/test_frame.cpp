@@ -108,8 +108,8 @@ TEST_CASE("counts add up, the cut weight does not") {
   RenderStats a, b;
   a.rays = {1, 2, 3, 4};
   b.rays = {10, 20, 30, 40};
-  a.signs = {5, 6, 7};
-  b.signs = {50, 60, 70};
+  a.signs = {5, 6, 7, 9};
+  b.signs = {50, 60, 70, 90};
   a.self_shadowed = 8;
   b.self_shadowed = 80;
   a.cut_weight = 0.5;
@@ -122,6 +122,7 @@ TEST_CASE("counts add up, the cut weight does not") {
   CHECK(a.signs.filtered == 55);
   CHECK(a.signs.in_double == 66);
   CHECK(a.signs.exact == 77);
+  CHECK(a.signs.tests == 99);
   CHECK(a.self_shadowed == 88);
   CHECK(a.cut_weight == 0.5);
 }

@@ -136,6 +136,7 @@ TEST_CASE("output: the statistics have the documented keys") {
                                                "rays.shadow",
                                                "rays.reflection",
                                                "rays.refraction",
+                                               "tests",
                                                "exact.filtered",
                                                "exact.double",
                                                "exact.exact",
@@ -150,6 +151,7 @@ TEST_CASE("output: the statistics have the documented keys") {
   CHECK(json["planes"] == 1);
   CHECK(json["frame_ms"]["runs"] == 2);
   CHECK(json["rays"]["primary"] == 16 * 12 * 4);
+  CHECK(json["tests"] > 16 * 12 * 4);  // each of them asks at least the plane
 }
 
 TEST_CASE("output: compare writes its eight files and the documented keys") {

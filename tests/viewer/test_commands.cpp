@@ -139,6 +139,8 @@ TEST_CASE("exit code 2: layers and formats that do not fit") {
   const auto render = [](const Arguments& more) { return Arguments{"render"} + kSmall + more; };
   check_usage(render({"-o", "a.exr", "--layers", "paint"}), "ambient");
   check_usage(render({"-o", "a.exr", "--layers", "shadow", "--renderer", "raster"}), "raster");
+  for (const char* reference : {"raster-reference", "raytrace-reference"})
+    check_usage(render({"-o", "a.exr", "--layers", "depth,cost", "--renderer", reference}), reference);
   check_usage(render({"-o", "a.png", "--layers", "depth"}), ".exr");
   check_usage(render({"-o", "a.exr", "--linear16"}), ".png");
   check_usage(render({"-o", "a.jpg"}), ".png");

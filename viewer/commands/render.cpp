@@ -78,6 +78,7 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
         {"shadow", stats.rays.shadow},
         {"reflection", stats.rays.reflection},
         {"refraction", stats.rays.refraction}}},
+      {"tests", stats.signs.tests},
       {"exact", {{"filtered", stats.signs.filtered}, {"double", stats.signs.in_double}, {"exact", stats.signs.exact}}},
       {"self_shadowed", stats.self_shadowed},
       {"cut_weight", stats.cut_weight},

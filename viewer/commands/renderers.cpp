@@ -82,8 +82,8 @@ using RaytraceReference = Reference<raytrace::render_reference>;
 }  // namespace
 
 const std::array<Renderer, 4> kRenderers{{
-    {"raster", "z-buffer", kRasterLayers, Raster::once, Raster::many},
-    {"raytrace", "ray tracer", kRaytraceLayers, Raytrace::once, Raytrace::many},
+    {"raster", "z-buffer", kRasterLayers | layer_bit(Layer::cost), Raster::once, Raster::many},
+    {"raytrace", "ray tracer", kAllLayers, Raytrace::once, Raytrace::many},
     {"raster-reference", "z-buffer, reference", kRasterLayers, RasterReference::once, RasterReference::many},
     {"raytrace-reference", "ray tracer, reference", kRaytraceLayers, RaytraceReference::once, RaytraceReference::many},
 }};
