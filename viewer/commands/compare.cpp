@@ -9,6 +9,7 @@
 #include "viewer/commands/commands.h"
 #include "viewer/commands/progress.h"
 #include "viewer/commands/renderers.h"
+#include "viewer/commands/result_json.h"
 #include "viewer/window/offscreen.h"
 
 namespace sidelight {
@@ -32,19 +33,6 @@ TimedFrame render_quietly(Job& job, const Renderer& renderer) {
 }
 
 nlohmann::ordered_json cause_json(const Cause& cause) { return {{"pixels", cause.pixels}, {"energy", cause.energy}}; }
-
-nlohmann::ordered_json metrics_json(const Metrics& m) {
-  constexpr std::array<const char*, 3> kChannels{"R", "G", "B"};
-  nlohmann::ordered_json json{{"max",
-                               {{"value", m.max.value},
-                                {"x", m.max.x},
-                                {"y", m.max.y},
-                                {"channel", kChannels[static_cast<std::size_t>(m.max.channel)]}}},
-                              {"mean", m.mean},
-                              {"rms", m.rms}};
-  json["psnr"] = m.psnr ? nlohmann::ordered_json(*m.psnr) : nlohmann::ordered_json(nullptr);
-  return json;
-}
 
 std::string comparison_json(const Job& job, const Comparison& result, const TimedFrame& rastered,
                             const TimedFrame& traced) {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/commands/result_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace sidelight {
+
+nlohmann::ordered_json metrics_json(const Metrics& m) {
+  constexpr std::array<const char*, 3> kChannels{"R", "G", "B"};
+  nlohmann::ordered_json json{{"max",
+                               {{"value", m.max.value},
+                                {"x", m.max.x},
+                                {"y", m.max.y},
+                                {"channel", kChannels[static_cast<std::size_t>(m.max.channel)]}}},
+                              {"mean", m.mean},
+                              {"rms", m.rms}};
+  json["psnr"] = m.psnr ? nlohmann::ordered_json(*m.psnr) : nlohmann::ordered_json(nullptr);
+  return json;
+}
+
+}  // namespace sidelight

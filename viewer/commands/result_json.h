@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// The parts of JSON files that more than one verb writes: one definition, so that they have one shape.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "common/picture/metrics.h"
+
+namespace sidelight {
+
+// {max: {value, x, y, channel}, mean, rms, psnr}; channel is "R", "G" or "B", psnr null where the 8-bit pictures are
+// identical.
+nlohmann::ordered_json metrics_json(const Metrics& metrics);
+
+}  // namespace sidelight
