@@ -34,6 +34,12 @@ class NumericalFault : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Two pictures that have no pixels to compare with each other: their sizes or channels differ. Exit code 4.
+class PicturesDoNotMatch : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // Wrong use of the program that only shows after the command line was parsed. Exit code 2.
 class UsageError : public std::runtime_error {
  public:

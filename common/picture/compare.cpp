@@ -35,8 +35,6 @@
 namespace sidelight {
 namespace {
 
-constexpr std::array<Layer, 3> kCauseLayers{Layer::shadow, Layer::reflection, Layer::refraction};
-
 // One channel of one pixel.
 struct Entry {
   float rastered, shadow, reflection, refraction, traced;

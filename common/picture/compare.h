@@ -43,8 +43,9 @@ Comparison compare(const Frame& rastered, const Frame& traced, std::size_t light
 // a cause or a value is not finite, however small the difference: that is a fault to be seen. `traced` with
 // the ledger layers.
 std::vector<glm::vec3> cause_map(const Frame& rastered, const Frame& traced);
-inline constexpr std::array<const char*, 3> kCauseNames{"shadow", "reflection", "refraction"};
-extern const std::array<glm::vec3, 3> kCauseHues;  // linear RGB, in the order of kCauseNames
+inline constexpr std::array<Layer, 3> kCauseLayers{Layer::shadow, Layer::reflection, Layer::refraction};
+inline constexpr std::array<const char*, 3> kCauseNames{"shadow", "reflection", "refraction"};  // in their order
+extern const std::array<glm::vec3, 3> kCauseHues;  // linear RGB, likewise
 
 // |traced - rastered|, for difference.png.
 std::vector<glm::vec3> absolute_difference(const Frame& rastered, const Frame& traced);

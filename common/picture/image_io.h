@@ -39,7 +39,7 @@ struct ImageFile {
   int width = 0, height = 0;  // of the data window
   int x0 = 0, y0 = 0;         // its place in the display window
   int full_width = 0, full_height = 0;
-  bool eight_bit = false;                                 // the file held 8-bit samples
+  bool png = false;           // integers, so clamped to [0, 1]; else OpenEXR
   std::map<std::string, std::vector<float>> channels;     // "R", "G", "B", "depth.Z", ...
   std::map<std::string, std::vector<std::uint32_t>> ids;  // "object.id", "primitive.id"
   std::map<std::string, std::string> metadata;            // those of sidelight, without the prefix
@@ -47,5 +47,7 @@ struct ImageFile {
 // Throws InputError: unreadable, neither PNG nor single-part OpenEXR, truncated, no R G B (a grey file gives
 // R = G = B), or claiming more pixels than 2^28 or than its length can hold (picture_claim.h).
 ImageFile read_image(const std::string& path);
+// R, G and B, pixel by pixel.
+std::vector<glm::vec3> colors(const ImageFile& image);
 
 }  // namespace sidelight

@@ -134,7 +134,7 @@ ImageFile read_claimed(const std::string& path, const PictureClaim& claim) {
     image.full_width = spec.full_width;
     image.full_height = spec.full_height;
   }
-  image.eight_bit = spec.format == OIIO::TypeUInt8;
+  image.png = claim.format == PictureFormat::png;
   read_metadata(spec, image);
   const bool linear = claim.format == PictureFormat::openexr ||
                       spec["sidelight:encoding"].get() == "linear" ||
@@ -154,6 +154,13 @@ ImageFile read_image(const std::string& path) {
     reject_file(path, "a picture of " + std::to_string(claim.width) + "x" + std::to_string(claim.height) +
                           " pixels needs more memory than there is");
   }
+}
+
+std::vector<glm::vec3> colors(const ImageFile& image) {
+  const auto &r = image.channels.at("R"), &g = image.channels.at("G"), &b = image.channels.at("B");
+  std::vector<glm::vec3> colors(r.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = {r[i], g[i], b[i]};
+  return colors;
 }
 
 }  // namespace sidelight

@@ -10,12 +10,12 @@
 // look at it before you commit it. A failure leaves the actual picture and the difference in the build folder.
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <glm/common.hpp>
 
 #include "common/picture/image_io.h"
+#include "common/picture/tolerance.h"
 #include "common/scene/toml.h"
 #include "tests/agreement/pictures.h"
 
@@ -24,8 +24,7 @@ using namespace sidelight::testing;
 
 namespace {
 
-constexpr double kTolerance = 2e-5;  // times max(1, value)
-constexpr std::size_t kExcused = 3;  // pixels
+constexpr Tolerance kTolerance{.fail = 2e-5, .allow = 3};  // times max(1, value); pixels
 const std::string kFailures = SIDELIGHT_BUILD_DIR "/image_failures";
 
 bool blessing() {
@@ -33,22 +32,14 @@ bool blessing() {
   return bless && std::string(bless) == "1";
 }
 
-std::vector<glm::vec3> colors(const ImageFile& image) {
-  const auto &r = image.channels.at("R"), &g = image.channels.at("G"), &b = image.channels.at("B");
-  std::vector<glm::vec3> out;
-  for (std::size_t i = 0; i < r.size(); ++i) out.emplace_back(r[i], g[i], b[i]);
-  return out;
-}
-
-// The greatest channel of |actual - stored| / max(1, |stored|); infinite for what is not a number.
-double distance(const glm::vec3& actual, const glm::vec3& stored) {
-  double most = 0;
-  for (int c = 0; c < 3; ++c) {
-    const double apart =
-        std::abs(double{actual[c]} - double{stored[c]}) / std::max(1.0, std::abs(double{stored[c]}));
-    most = std::max(most, std::isnan(apart) ? INFINITY : apart);
+// Per pixel the greatest channel of |actual - stored| / max(1, |stored|). (Dividing in float adds a relative 2^-23.)
+std::vector<double> relative_differences(std::vector<glm::vec3> actual, std::vector<glm::vec3> stored) {
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    const glm::vec3 scale = glm::max(glm::vec3(1), glm::abs(stored[i]));
+    actual[i] /= scale;
+    stored[i] /= scale;
   }
-  return most;
+  return pixel_differences(actual, stored);
 }
 
 void bless(const std::string& path, const Frame& actual) {
@@ -74,15 +65,13 @@ void check_picture(const std::string& name, const Frame& actual) {
   REQUIRE(file.height == actual.height());
   const std::vector<glm::vec3> stored = colors(file);
 
-  std::size_t worst = 0, strays = 0;
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    if (distance(actual.color[i], stored[i]) > kTolerance) ++strays;
-    if (distance(actual.color[i], stored[i]) > distance(actual.color[worst], stored[worst])) worst = i;
-  }
-  if (strays <= kExcused) return;
+  const std::vector<double> differences = relative_differences(actual.color, stored);
+  const Excess excess = count_excess(differences, kTolerance);
+  if (excess.within(kTolerance)) return;
   write_failure(name, actual, stored);
+  const std::size_t worst = worst_pixels(differences, file.width, kTolerance.fail, 1, 1).front();
   const auto width = static_cast<std::size_t>(file.width);
-  FAIL_CHECK(strays << " pixels differ; the worst is " << worst % width << "," << worst / width << ": "
+  FAIL_CHECK(excess.over << " pixels differ; the worst is " << worst % width << "," << worst / width << ": "
                     << text(actual.color[worst]) << ", stored " << text(stored[worst]) << "; see "
                     << kFailures << "/" << name << "_difference.exr");
 }

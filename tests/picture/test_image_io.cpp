@@ -45,7 +45,7 @@ void check_everything(const ImageFile& image, const Frame& frame) {
   CHECK(image.y0 == frame.window.y0);
   CHECK(image.full_width == frame.full_width);
   CHECK(image.full_height == frame.full_height);
-  CHECK_FALSE(image.eight_bit);
+  CHECK_FALSE(image.png);
   CHECK(image.channels.size() == 3 + 6 * 3 + 1 + 3 + 1);
   CHECK(image.ids.size() == 2);
   check_rgb(image, "", "RGB", frame.color);
@@ -142,7 +142,7 @@ TEST_CASE("PNG of 8 bits: all codes come back as linear values") {
   }
   write_png(folder / "codes.png", image);
   const ImageFile file = read_image(folder / "codes.png");
-  CHECK(file.eight_bit);
+  CHECK(file.png);
   CHECK(file.width == 16);
   CHECK(file.full_width == 16);
   CHECK(file.x0 == 0);
@@ -164,7 +164,7 @@ TEST_CASE("PNG of 16 bits is linear, clamped, rounded half up, and read as linea
                  {half_step * 0.999f, half_step * 1.001f, 0.25f}};
   write_png_linear16(folder / "a.png", frame, {{"scene", "x"}});
   const ImageFile file = read_image(folder / "a.png");
-  CHECK_FALSE(file.eight_bit);
+  CHECK(file.png);
   const auto step = [](int value) { return static_cast<float>(value / 65535.0); };
   CHECK(file.channels.at("R") == std::vector<float>{0, 0, 0});
   CHECK(file.channels.at("G") == std::vector<float>{step(32768), 1, step(1)});
@@ -190,7 +190,7 @@ TEST_CASE("the name decides nothing when reading: content does") {
   write_exr(folder / "exr.png", frame);
   check_everything(read_image(folder / "exr.png"), frame);
   write_png(folder / "picture", to_image8(frame.color, 5, 4));
-  CHECK(read_image(folder / "picture").eight_bit);
+  CHECK(read_image(folder / "picture").png);
 }
 
 TEST_CASE("a picture that cannot be written leaves nothing behind and names its path") {

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "viewer/commands/commands.h"
-#include "viewer/commands/progress.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
 #include "viewer/window/offscreen.h"
@@ -19,18 +18,6 @@ struct CompareFlags {
   JobFlags job;
   std::string folder;
 };
-
-TimedFrame render_quietly(Job& job, const Renderer& renderer) {
-  RenderOptions options = job.options;
-  options.layers = renderer.layers;
-  options.keep_samples = true;
-  ProgressBar bar(std::string(renderer.label), job.flags.quiet);
-  options.progress = bar.callback();
-  TimedFrame timed = renderer.render(job, job.camera, options);
-  if (const std::string fault = first_non_finite(timed.frame); !fault.empty())
-    throw NumericalFault(fmt::format("{}: {}", renderer.label, fault));
-  return timed;
-}
 
 nlohmann::ordered_json cause_json(const Cause& cause) { return {{"pixels", cause.pixels}, {"energy", cause.energy}}; }
 
@@ -107,8 +94,8 @@ int run_compare(const CompareFlags& flags) {
   check_memory(job);
   make_folder(flags.folder);
 
-  const TimedFrame rastered = render_quietly(job, raster);
-  const TimedFrame traced = render_quietly(job, raytrace);
+  const TimedFrame rastered = render_all_layers(job, raster);
+  const TimedFrame traced = render_all_layers(job, raytrace);
   const Comparison result = compare(rastered.frame, traced.frame, job.scene.lights.size());
   write_pictures(job, flags.folder, rastered, traced);
   write_text_file(flags.folder + "/compare.json", comparison_json(job, result, rastered, traced));

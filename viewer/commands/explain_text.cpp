@@ -39,14 +39,6 @@ Json json_triple(const V& v) {
   return Json::array({v.x, v.y, v.z});
 }
 
-// "sphere of line 40, material red"
-std::string primitive_text(const Scene& scene, std::uint32_t primitive) {
-  const Object& object = scene.objects[scene.primitive_object[primitive]];
-  const Material& material = scene.materials[primitive_material(scene, primitive)];
-  return fmt::format("primitive {}, {} of line {}, material {}", primitive,
-                     kKindNames[static_cast<std::size_t>(object.kind)], object.where.line, printable(material.name, 60));
-}
-
 // ---- words ----
 
 class Words {
@@ -169,6 +161,13 @@ Json raster_json(const Scene& scene, const RasterRecord& record) {
 }
 
 }  // namespace
+
+std::string primitive_text(const Scene& scene, std::uint32_t primitive) {
+  const Object& object = scene.objects[scene.primitive_object[primitive]];
+  const Material& material = scene.materials[primitive_material(scene, primitive)];
+  return fmt::format("primitive {}, {} of line {}, material {}", primitive,
+                     kKindNames[static_cast<std::size_t>(object.kind)], object.where.line, printable(material.name, 60));
+}
 
 std::string explanation_text(const Job& job, glm::ivec2 pixel, const std::vector<ExplainedSample>& samples) {
   Words words(job.scene);

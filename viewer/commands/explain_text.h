@@ -12,6 +12,9 @@
 
 namespace sidelight {
 
+// "primitive 3, sphere of line 40, material red", for a terminal.
+std::string primitive_text(const Scene& scene, std::uint32_t primitive);
+
 struct ExplainedSample {
   int i = 0, j = 0;   // within the pixel
   RasterRecord raster;

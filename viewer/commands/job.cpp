@@ -75,19 +75,27 @@ glm::ivec2 parse_size(const std::string& text, const char* flag) {
   return {size[0], size[1]};
 }
 
-void add_job_flags(CLI::App& verb, JobFlags& flags) {
-  verb.add_option("SCENE", flags.scene, "scene file (TOML)")->required();
-  verb.add_option("-r,--resolution", flags.size, "picture size WxH, instead of the scene's");
+void add_render_flags(CLI::App& verb, JobFlags& flags) {
   verb.add_option("--spp", flags.spp, "samples per pixel, a square number: 1, 4, 9, ...");
   verb.add_option("--depth", flags.depth, "rays along a path, the eye ray included")->check(CLI::Range(1, 1000));
-  verb.add_option("--crop", flags.crop, "only pixels x0,y0,x1,y1 (half-open, y down)");
   verb.add_flag("--no-shadows", flags.no_shadows, "every light reaches every surface");
   verb.add_flag("--no-reflection", flags.no_reflection, "no mirror rays");
   verb.add_flag("--no-refraction", flags.no_refraction, "no refracted rays");
   verb.add_flag("--local", flags.local, "all three: local light only, as the z-buffer");
   verb.add_option("-j", flags.threads, "threads, 0 = all cores")->check(CLI::Range(0, 1024));
   verb.add_option("--isa", flags.isa, "force scalar, avx2 or avx512 (the picture is the same)");
+}
+
+void add_quiet_flag(CLI::App& verb, JobFlags& flags) {
   verb.add_flag("-q,--quiet", flags.quiet, "quiet: errors only");
+}
+
+void add_job_flags(CLI::App& verb, JobFlags& flags) {
+  verb.add_option("SCENE", flags.scene, "scene file (TOML)")->required();
+  verb.add_option("-r,--resolution", flags.size, "picture size WxH, instead of the scene's");
+  verb.add_option("--crop", flags.crop, "only pixels x0,y0,x1,y1 (half-open, y down)");
+  add_render_flags(verb, flags);
+  add_quiet_flag(verb, flags);
 }
 
 Job load_job(const JobFlags& flags) {

@@ -27,8 +27,10 @@ struct JobFlags {
   bool no_times = false;   // --no-times
 };
 
-// Adds the flags to a verb, with their help texts.
+// Adds the flags to a verb, with their help texts: all of them, those that say how a scene is rendered, or -q alone.
 void add_job_flags(CLI::App& verb, JobFlags& flags);
+void add_render_flags(CLI::App& verb, JobFlags& flags);
+void add_quiet_flag(CLI::App& verb, JobFlags& flags);
 
 // "640x480", sides from 1 to 65535. Throws UsageError, which names the flag.
 glm::ivec2 parse_size(const std::string& text, const char* flag);

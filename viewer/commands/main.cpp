@@ -16,7 +16,16 @@
 namespace sidelight {
 namespace {
 
-enum ExitCode { kFine = 0, kUsage = 2, kInput = 3, kNumerical = 5, kNoDisplay = 6, kOutput = 7, kInterrupted = 130 };
+enum ExitCode {
+  kFine = 0,
+  kUsage = 2,
+  kInput = 3,
+  kNoMatch = 4,
+  kNumerical = 5,
+  kNoDisplay = 6,
+  kOutput = 7,
+  kInterrupted = 130
+};
 
 int complain(int code, const std::string& message) {
   fmt::print(stderr, "sidelight: {}\n", message);
@@ -29,13 +38,15 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "sidelight " SIDELIGHT_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 fine, 1 the pictures differ beyond what is explained, 2 wrong usage, 3 bad input,\n"
-      "5 numerical fault, 6 no display, 7 output could not be written, 130 interrupted.\n"
+      "Exit codes: 0 fine, 1 the pictures differ beyond what is explained (compare) or allowed (diff),\n"
+      "2 wrong usage, 3 bad input, 4 size or channels differ, 5 numerical fault, 6 no display,\n"
+      "7 output could not be written, 130 interrupted.\n"
       "sidelight VERB --help shows a verb's flags and examples.");
   int exit_code = kFine;
   add_view_command(app, exit_code);
   add_compare_command(app, exit_code);
   add_render_command(app, exit_code);
+  add_diff_command(app, exit_code);
   add_explain_command(app, exit_code);
   add_info_command(app, exit_code);
 
@@ -53,6 +64,8 @@ int run(int argc, char** argv) {
     return kInput;
   } catch (const std::bad_alloc&) {
     return complain(kInput, "not enough memory for this scene and size");
+  } catch (const PicturesDoNotMatch& error) {
+    return complain(kNoMatch, error.what());
   } catch (const NumericalFault& error) {
     return complain(kNumerical, fmt::format("not a number in the picture: {}", error.what()));
   } catch (const NoDisplay& error) {

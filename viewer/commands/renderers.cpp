@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/commands/renderers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "raster/raster.h"
 #include "raytrace/raytrace.h"
+#include "viewer/commands/progress.h"
 
 namespace sidelight {
 namespace {
@@ -91,6 +94,17 @@ const std::array<Renderer, 4> kRenderers{{
 const Renderer* find_renderer(std::string_view name) {
   const auto at = std::find_if(kRenderers.begin(), kRenderers.end(), [&](const Renderer& r) { return r.name == name; });
   return at == kRenderers.end() ? nullptr : &*at;
+}
+
+TimedFrame render_all_layers(const Job& job, const Renderer& renderer) {
+  RenderOptions options = job.options;
+  options.layers = renderer.layers;
+  ProgressBar bar(std::string(renderer.label), job.flags.quiet);
+  options.progress = bar.callback();
+  TimedFrame timed = renderer.render(job, job.camera, options);
+  if (const std::string fault = first_non_finite(timed.frame); !fault.empty())
+    throw NumericalFault(fmt::format("{}: {}", renderer.label, fault));
+  return timed;
 }
 
 }  // namespace sidelight

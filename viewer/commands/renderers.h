@@ -30,4 +30,7 @@ extern const std::array<Renderer, 4> kRenderers;   // raster, raytrace, raster-r
 // Null for an unknown name.
 const Renderer* find_renderer(std::string_view name);
 
+// The job's picture with all that the renderer can make, and a progress bar meanwhile. Throws NumericalFault.
+TimedFrame render_all_layers(const Job& job, const Renderer& renderer);
+
 }  // namespace sidelight
