@@ -16,9 +16,6 @@ double difference(float a, float b) {
   return std::isfinite(a) && std::isfinite(b) ? std::abs(double{a} - double{b}) : kInfinity;
 }
 
-// A NaN or infinity is over, even where everything is allowed.
-bool is_over(double difference, double limit) { return difference > limit || difference == kInfinity; }
-
 }  // namespace
 
 double channel_difference(const glm::vec3& a, const glm::vec3& b) {
@@ -38,6 +35,8 @@ void include_channel(std::vector<double>& differences, const std::vector<float>&
   for (std::size_t i = 0; i < a.size(); ++i)
     differences[i] = std::max(differences[i], difference(a[i], b[i]));
 }
+
+bool is_over(double difference, double limit) { return difference > limit || difference == kInfinity; }
 
 double Excess::percent_over() const {
   return pixels == 0 ? 0 : 100 * static_cast<double>(over) / static_cast<double>(pixels);

@@ -24,7 +24,10 @@ std::vector<double> pixel_differences(const std::vector<glm::vec3>& a, const std
 void include_channel(std::vector<double>& differences, const std::vector<float>& a,
                      const std::vector<float>& b);
 
-// What is allowed. A pixel is over if a channel is off by more than `fail`; exactly `fail` is not over.
+// Exactly the limit is not over; what is not finite is, whatever the limit.
+bool is_over(double difference, double limit);
+
+// What is allowed. A pixel is over if a channel is off by more than `fail`.
 struct Tolerance {
   double fail = 0;
   double fail_percent = 0;                                     // so many percent of the pixels may be over,
@@ -32,7 +35,7 @@ struct Tolerance {
   double hard_fail = std::numeric_limits<double>::infinity();  // but none by more than this
 };
 
-// What was found. Pixels that are not finite are over, and beyond every limit.
+// What was found.
 struct Excess {
   std::uint64_t pixels = 0;
   std::uint64_t over = 0;        // by more than `fail`

@@ -118,12 +118,13 @@ inline const std::string kGoodScene =
     "normal = [0, 1, 0]\n"
     "material = 'red'\n";
 
-// A folder to run the program in, with good.toml and a link to the shipped scenes in it: paths are those that a user
-// types in the project's folder, and outputs land nowhere else.
+// A folder to run the program in, with good.toml and links to the shipped scenes and the tests in it: paths are those
+// that a user types in the project's folder, and outputs land nowhere else.
 class Workplace {
  public:
   Workplace() {
     std::filesystem::create_directory_symlink(SIDELIGHT_SOURCE_DIR "/scenes", folder_ / "scenes");
+    std::filesystem::create_directory_symlink(SIDELIGHT_SOURCE_DIR "/tests", folder_ / "tests");
     write_bytes(folder_ / "good.toml", kGoodScene);
   }
 
@@ -147,8 +148,7 @@ class Workplace {
   // Those that the test or the program made.
   std::vector<std::string> made() const {
     std::vector<std::string> out = names();
-    std::erase(out, "good.toml");
-    std::erase(out, "scenes");
+    for (const char* given : {"good.toml", "scenes", "tests"}) std::erase(out, given);
     return out;
   }
 

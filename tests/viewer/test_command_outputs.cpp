@@ -205,7 +205,7 @@ TEST_CASE("output: without times two runs write the same bytes") {
 
 TEST_CASE("help: fits a screen for every verb and its examples run") {
   const Workplace here;
-  for (const char* verb : {"view", "compare", "render", "explain", "info"}) {
+  for (const char* verb : {"view", "compare", "render", "diff", "explain", "info"}) {
     CAPTURE(verb);
     const Outcome help = here.run({verb, "--help"});
     CHECK(help.code == 0);
@@ -220,8 +220,8 @@ TEST_CASE("help: fits a screen for every verb and its examples run") {
       // The line as a user types it, but in little, and without a display.
       std::istringstream words(line.substr(sizeof("  sidelight")));
       Arguments command{std::istream_iterator<std::string>(words), {}};
-      const bool names_pixel = command[0] == "explain";  // which a little picture does not have
-      if (line.find(" -r ") == std::string::npos && !names_pixel) command = command + Arguments{"-r", "64x48"};
+      const bool has_size = command[0] == "explain" || command[0] == "diff";  // of the pixel or picture it names
+      if (line.find(" -r ") == std::string::npos && !has_size) command = command + Arguments{"-r", "64x48"};
       const Outcome outcome = here.run(command);
       CAPTURE(outcome.err);
       const bool wants_window = command[0] == "view" && line.find("--screenshot") == std::string::npos;

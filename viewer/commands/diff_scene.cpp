@@ -51,6 +51,7 @@ double equality(const PicturePair& pair, const glm::vec3& value, double fail) {
 // colour: the fewest, the nearest among equally few. Nothing if none do.
 std::optional<Terms> change_that_fits(const OurPictures& ours, const PicturePair& pair, std::size_t i,
                                       double fail) {
+  if (std::isinf(pair.differences[i])) return {};  // not finite: no sum gives it
   const Terms whole = ours.raster ? kNoTerms : kAllTerms, present = terms_present(ours, i);
   const glm::vec3 theirs = pair.value(pair.a.color[i]);
   for (int count = 0; count <= std::popcount(present); ++count) {
@@ -152,7 +153,9 @@ std::string worst_text(const WorstPixel& pixel, const OurPictures& ours, const P
       primitive == kNone ? "background" : primitive_text(ours.job.scene, primitive), terms, pixel.explain);
 }
 
-const char* nearer(const Account& account) {
+// Of ours, by its name; nothing where both are equally near.
+std::optional<std::string> nearer(const Account& account) {
+  if (account.rms_raster == account.rms_raytrace) return {};
   return account.rms_raster < account.rms_raytrace ? "raster" : "raytrace";
 }
 
@@ -193,7 +196,7 @@ Account account_for(const OurPictures& ours, const PicturePair& pair, double fai
   // Every pixel that is over, by the change of terms that explains it.
   std::map<Terms, std::uint64_t> pixels;
   for (std::size_t i = 0; i < pair.differences.size(); ++i) {
-    if (pair.differences[i] <= fail) continue;
+    if (!is_over(pair.differences[i], fail)) continue;
     if (const auto change = change_that_fits(ours, pair, i, fail))
       ++pixels[*change];
     else
@@ -216,14 +219,16 @@ Account account_for(const OurPictures& ours, const PicturePair& pair, double fai
 
 std::string account_text(const Account& account, const OurPictures& ours, const PicturePair& pair) {
   std::string text;
-  if (account.rms_raster != account.rms_raytrace)
-    text += fmt::format("nearer to our {} (rms {:.3g} from the z-buffer's, {:.3g} from the ray tracer's)\n",
-                        nearer(account) == std::string("raster") ? "z-buffer's" : "ray tracer's",
-                        account.rms_raster, account.rms_raytrace);
+  if (const auto name = nearer(account))
+    text += fmt::format("nearer to our {} picture (rms {:.3g}; the other {:.3g})\n", *name,
+                        std::min(account.rms_raster, account.rms_raytrace),
+                        std::max(account.rms_raster, account.rms_raytrace));
   for (const Reason& reason : account.reasons)
     text += fmt::format("  {} pixels equal {}\n", reason.pixels, reason.text);
   if (account.without_reason > 0)
-    text += fmt::format("  {} pixels equal no sum of our terms\n", account.without_reason);
+    text += fmt::format(
+        "  {} pixels equal no sum of our terms (what a mirror or glass shows belongs to its term)\n",
+        account.without_reason);
   if (!account.worst.empty()) text += "the worst, and how to see what makes ours:\n";
   for (const WorstPixel& pixel : account.worst) text += worst_text(pixel, ours, pair);
   return text;
@@ -231,11 +236,12 @@ std::string account_text(const Account& account, const OurPictures& ours, const 
 
 Json account_json(const Account& account, const OurPictures& ours, const PicturePair& pair) {
   Json json{{"renderer", ours.raster ? "raster" : "raytrace"},
-            {"nearer", nearer(account)},
+            {"nearer", nullptr},
             {"rms", {{"raster", account.rms_raster}, {"raytrace", account.rms_raytrace}}},
             {"reasons", Json::array()},
             {"without_reason", account.without_reason},
             {"worst", Json::array()}};
+  if (const auto name = nearer(account)) json["nearer"] = *name;
   for (const Reason& reason : account.reasons)
     json["reasons"].push_back({{"equals", reason.text}, {"pixels", reason.pixels}});
   for (const WorstPixel& pixel : account.worst) json["worst"].push_back(worst_json(pixel, ours, pair));

@@ -49,7 +49,7 @@ Account account_for(const OurPictures& ours, const PicturePair& pair, double fai
 
 // For a person.
 std::string account_text(const Account& account, const OurPictures& ours, const PicturePair& pair);
-// {renderer, nearer, rms: {raster, raytrace}, reasons: [{equals, pixels}], without_reason, worst: [{x, y, picture, ours,
+// {renderer, nearer (null if neither), rms: {raster, raytrace}, reasons: [{equals, pixels}], without_reason, worst: [{x, y, picture, ours,
 // off, primitive, object, line, material, shadow, reflection, refraction, equals, explain}]}. Colours are linear; off is
 // in the values compared, null where not finite; equals is null where no sum fits.
 nlohmann::ordered_json account_json(const Account& account, const OurPictures& ours, const PicturePair& pair);
