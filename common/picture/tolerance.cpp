@@ -42,7 +42,7 @@ double Excess::percent_over() const {
   return pixels == 0 ? 0 : 100 * static_cast<double>(over) / static_cast<double>(pixels);
 }
 
-// The percentage is one division of whole numbers, rounded once: 29 of 10,000 is the double that "0.29" is read as.
+// The percentage is a quotient of whole numbers, rounded once: 29 of 10,000 is the double that "0.29" is read as.
 bool Excess::within(const Tolerance& tolerance) const {
   const bool few = over <= tolerance.allow || percent_over() <= tolerance.fail_percent;
   return few && hard == 0 && non_finite == 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Whether two pictures of one size are near enough: per pixel how far they are apart, how many pixels may be farther
-// than what is allowed, and which are the worst. Not a metric (metrics.h): one cracked pixel in a million moves no
-// mean, but it is one pixel too many here.
+// Whether two pictures of one size are near enough: how far each pixel is off, how many may be off by more than
+// is allowed, and which are the worst. Not a metric (metrics.h): one cracked pixel in a million moves no mean,
+// but it is one pixel too many here.
 //
-// The rules are those of OpenImageIO's idiff (--fail, --failpercent, --hardfail), save that a value which is not
-// finite is never near anything, itself included.
+// After OpenImageIO's idiff (--fail, --failpercent, --hardfail), save that a value which is not finite is never
+// near anything, itself included.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The verb diff from outside, with two picture files. What counts as near is tested in picture/test_tolerance.cpp; a
-// picture against a scene in test_diff_scene.cpp.
+// The verb diff from outside, with two picture files. What counts as near is tested in
+// picture/test_tolerance.cpp; a picture against a scene in test_diff_scene.cpp.
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>

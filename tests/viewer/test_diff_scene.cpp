@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// "Is my renderer right?": diff with a picture and a scene. Our own picture passes; one that lacks a term fails and the
-// term is named, pixel by pixel, with a command that shows it.
+// "Is my renderer right?": diff with a picture and a scene. Our own picture passes; one that lacks a term fails
+// and the term is named, pixel by pixel, with a command that shows it.
 #include <limits>
 #include <nlohmann/json.hpp>
 

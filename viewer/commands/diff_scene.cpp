@@ -40,15 +40,15 @@ Terms terms_present(const OurPictures& ours, std::size_t i) {
   return present;
 }
 
-// How near is equal: one step of a code where codes are compared; else 1e-3 of the greatest channel or of 1, which is
+// How near is equal: one step where codes are compared; else 1e-3 of the greatest channel or of 1, which is
 // twice what rounding to 16-bit floats does (2^-11). Never less than what passes for equal anyway.
 double equality(const PicturePair& pair, const glm::vec3& value, double fail) {
   const double step = 1.01 / 255;
   return std::max(fail, pair.coded ? step : 1e-3 * double{std::max({1.0f, value.x, value.y, value.z})});
 }
 
-// Which terms must change in ours (out, where the tracer's picture has them; in, for the z-buffer's) to give their
-// colour: the fewest, the nearest among equally few. Nothing if none do.
+// Which terms must change in ours (out of the tracer's picture, or into the z-buffer's) to give their colour:
+// the fewest, the nearest among equally few. Nothing if none do.
 std::optional<Terms> change_that_fits(const OurPictures& ours, const PicturePair& pair, std::size_t i,
                                       double fail) {
   if (std::isinf(pair.differences[i])) return {};  // not finite: no sum gives it

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // "Is my renderer right?": somebody's picture of a scene against ours. Where it is off, the ledger may say why:
 //   traced = R - shadow + reflection + refraction     (R: the z-buffer's colour),
-// and a pixel that equals ours with one of these terms left out, or put in, tells what the other renderer does not do,
-// or does too much. Only numbers speak: a pixel that no such sum gives stays without a reason.
+// and a pixel that equals ours with one of these terms left out, or put in, tells what the other renderer
+// does not do, or does too much. Only numbers speak: a pixel that no such sum gives stays without a reason.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -49,9 +49,10 @@ Account account_for(const OurPictures& ours, const PicturePair& pair, double fai
 
 // For a person.
 std::string account_text(const Account& account, const OurPictures& ours, const PicturePair& pair);
-// {renderer, nearer (null if neither), rms: {raster, raytrace}, reasons: [{equals, pixels}], without_reason, worst: [{x, y, picture, ours,
-// off, primitive, object, line, material, shadow, reflection, refraction, equals, explain}]}. Colours are linear; off is
-// in the values compared, null where not finite; equals is null where no sum fits.
+// {renderer, nearer, rms: {raster, raytrace}, reasons: [{equals, pixels}], without_reason, worst: [{x, y, picture,
+// ours, off, primitive, object, line, material, shadow, reflection, refraction, equals, explain}]}. nearer is null
+// where both are equally near. Colours are linear; off is in the values compared, null where not finite; equals is
+// null where no sum fits.
 nlohmann::ordered_json account_json(const Account& account, const OurPictures& ours, const PicturePair& pair);
 
 }  // namespace sidelight

@@ -42,16 +42,14 @@ void check_match(const Picture& a, const Picture& b) {
                                          (a.alpha.empty() ? b : a).name, (a.alpha.empty() ? a : b).name));
 }
 
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-// To the nearest colour that 8 bits hold, save what is not finite: 8 bits would hide it.
-glm::vec3 as_coded(const glm::vec3& linear, float (*decode)(std::uint8_t)) {
-  if (!is_finite(linear)) return linear;
-  return {decode(encode_srgb8(linear.x)), decode(encode_srgb8(linear.y)), decode(encode_srgb8(linear.z))};
+// Through 8 bits and back by `decode`, save what is not finite: 8 bits would hide it.
+glm::vec3 through_8_bits(const glm::vec3& linear, float (*decode)(std::uint8_t)) {
+  const auto each = [&](float v) { return std::isfinite(v) ? decode(encode_srgb8(v)) : v; };
+  return {each(linear.x), each(linear.y), each(linear.z)};
 }
 
 void quantise(Picture& picture) {
-  for (glm::vec3& color : picture.color) color = as_coded(color, decode_srgb8);
+  for (glm::vec3& color : picture.color) color = through_8_bits(color, decode_srgb8);
 }
 
 template <class T>
@@ -114,7 +112,8 @@ PicturePair::PicturePair(Picture first, Picture second) : a(std::move(first)), b
 }
 
 glm::vec3 PicturePair::value(const glm::vec3& linear) const {
-  return coded ? as_coded(linear, [](std::uint8_t code) { return static_cast<float>(code) / 255; }) : linear;
+  return coded ? through_8_bits(linear, [](std::uint8_t code) { return static_cast<float>(code) / 255; })
+               : linear;
 }
 
 std::vector<glm::vec3> PicturePair::values(const std::vector<glm::vec3>& linear) const {
@@ -151,8 +150,8 @@ std::string first_non_finite(const PicturePair& pair) {
 std::vector<glm::vec3> difference_picture(const PicturePair& pair) {
   std::vector<glm::vec3> difference(pair.a.color.size());
   for (std::size_t i = 0; i < difference.size(); ++i) {
-    const glm::vec3 apart = glm::abs(pair.a.color[i] - pair.b.color[i]);
-    difference[i] = is_finite(apart) ? apart : glm::vec3(1);
+    const bool finite = !std::isinf(pair.differences[i]);
+    difference[i] = finite ? glm::abs(pair.a.color[i] - pair.b.color[i]) : glm::vec3(1);
   }
   return difference;
 }

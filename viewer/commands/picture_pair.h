@@ -33,8 +33,8 @@ Picture read_picture(const std::string& path);
 // Without alpha. The frame's ids and depth come along.
 Picture picture_of(const Frame& frame, const std::string& name);
 
-// Throws PicturesDoNotMatch, which says what differs: the size, the place of a crop, or that only one has alpha.
 struct PicturePair {
+  // Throws PicturesDoNotMatch, which says what differs: the size, a crop's place, or that only one has alpha.
   PicturePair(Picture first, Picture second);
 
   // What is compared for a linear colour.
@@ -62,7 +62,7 @@ Findings examine(const PicturePair& pair, const Tolerance& tolerance);
 // "a.exr: R at pixel (3, 4)": the first value that is not finite. Needs one.
 std::string first_non_finite(const PicturePair& pair);
 
-// |a - b|, linear, of the pictures as they are compared. White where a value is not finite, so that it is seen.
+// |a - b| of the colours, linear. White where a value is not finite, so that it is seen.
 std::vector<glm::vec3> difference_picture(const PicturePair& pair);
 
 }  // namespace sidelight
