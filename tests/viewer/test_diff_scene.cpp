@@ -143,13 +143,13 @@ TEST_CASE("diff with a scene: a colour that no sum of terms gives stays without 
   CHECK(here.run({"diff", "theirs.exr", "good.toml"}).code == 5);
 }
 
-TEST_CASE("diff with a scene: rounding is called rounding, and alpha is left out") {
+TEST_CASE("diff with a scene: 16-bit floats are near, and alpha is left out") {
   const Workplace here;
   render(here, "good.toml", {});
   REQUIRE(here.command({"oiiotool", "theirs.exr", "-d", "half", "-o", "half.exr"}).code == 0);
   const Json json = account(here, "good.toml", {}, "half.exr");
   CHECK(json["over"].get<int>() > 0);
-  CHECK(json["reasons"] == Json::array({{{"equals", "ours, but for rounding"}, {"pixels", json["over"]}}}));
+  CHECK(json["reasons"] == Json::array({{{"equals", "ours within 0.001"}, {"pixels", json["over"]}}}));
   CHECK(here.run({"diff", "half.exr", "good.toml", "--fail", "0.001"}).code == 0);
 
   render(here, "good.toml", {}, "theirs.png");

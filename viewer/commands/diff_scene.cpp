@@ -70,8 +70,8 @@ std::optional<Terms> change_that_fits(const OurPictures& ours, const PicturePair
 }
 
 // "ours without the shadow and the reflection"
-std::string change_text(Terms change, bool raster) {
-  if (change == kNoTerms) return "ours, but for rounding";
+std::string change_text(Terms change, bool raster, bool coded) {
+  if (change == kNoTerms) return coded ? "ours within one 8-bit step" : "ours within 0.001";
   std::vector<std::string> names;
   for (std::size_t t = 0; t < kCauseNames.size(); ++t)
     if (change >> t & 1) names.push_back(std::string("the ") + kCauseNames[t]);
@@ -203,7 +203,7 @@ Account account_for(const OurPictures& ours, const PicturePair& pair, double fai
       ++account.without_reason;
   }
   for (const auto& [change, count] : pixels)
-    account.reasons.push_back({change_text(change, ours.raster), count});
+    account.reasons.push_back({change_text(change, ours.raster, pair.coded), count});
   std::stable_sort(account.reasons.begin(), account.reasons.end(),
                    [](const Reason& a, const Reason& b) { return a.pixels > b.pixels; });
 
@@ -211,7 +211,7 @@ Account account_for(const OurPictures& ours, const PicturePair& pair, double fai
   const int apart = 1 + std::max(pair.window.width(), pair.window.height()) / 16;
   for (const std::size_t i : worst_pixels(pair.differences, pair.width(), fail, kShown, apart)) {
     const auto change = change_that_fits(ours, pair, i, fail);
-    account.worst.push_back({i, change ? change_text(*change, ours.raster) : std::string(),
+    account.worst.push_back({i, change ? change_text(*change, ours.raster, pair.coded) : std::string(),
                              explain_command(ours.job, pair.x(i), pair.y(i))});
   }
   return account;
