@@ -23,6 +23,8 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 // PNG, 8-bit sRGB. Throws OutputError.
 void write_png(const std::string& path, const Image8& image, const Metadata& metadata = {});
+// The same as bytes in memory, without metadata.
+std::vector<std::uint8_t> encode_png(const Image8& image);
 // PNG, linear 16-bit: clamped, rounded half up (NaN gives 0), and marked by the metadata "encoding" =
 // "linear". Throws OutputError.
 void write_png_linear16(const std::string& path, const Frame& frame, const Metadata& metadata = {});

@@ -80,12 +80,12 @@ void set_metadata(const Metadata& metadata, OIIO::ImageSpec& spec) {
   }
 }
 
-// Encodes into memory and writes the file; write_pixels(output) returns false on failure. `format`: "png",
-// "openexr".
+// The file's bytes; write_pixels(output) returns false on failure. `format`: "png", "openexr"; `name` is the picture's
+// in the message.
 template <class WritePixels>
-void encode(const std::string& path, const char* format, const OIIO::ImageSpec& spec,
-            WritePixels write_pixels) {
-  std::vector<unsigned char> bytes;
+std::vector<std::uint8_t> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
+                                 WritePixels write_pixels) {
+  std::vector<std::uint8_t> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
   const bool ok = output && output->set_ioproxy(&memory) &&
@@ -93,10 +93,19 @@ void encode(const std::string& path, const char* format, const OIIO::ImageSpec& 
                   output->close();
   if (!ok) {
     const std::string reason = output ? output->geterror() : OIIO::geterror();
-    throw OutputError(printable(path, 1000) + ": cannot encode as " + format + ": " +
+    throw OutputError(printable(name, 1000) + ": cannot encode as " + format + ": " +
                       printable(reason, 1000));
   }
-  write_file(path, bytes);
+  return bytes;
+}
+
+std::vector<std::uint8_t> encode_png(const std::string& name, const Image8& image, const Metadata& metadata) {
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeUInt8);
+  assert(image.rgb.size() == spec.image_bytes());
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  set_metadata(metadata, spec);
+  return encode(name, "png", spec,
+                [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeUInt8, image.rgb.data()); });
 }
 
 std::uint16_t quantised16(float linear) {
@@ -106,13 +115,10 @@ std::uint16_t quantised16(float linear) {
 
 }  // namespace
 
+std::vector<std::uint8_t> encode_png(const Image8& image) { return encode_png("picture", image, {}); }
+
 void write_png(const std::string& path, const Image8& image, const Metadata& metadata) {
-  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeUInt8);
-  assert(image.rgb.size() == spec.image_bytes());
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  set_metadata(metadata, spec);
-  encode(path, "png", spec,
-         [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeUInt8, image.rgb.data()); });
+  write_file(path, encode_png(path, image, metadata));
 }
 
 void write_png_linear16(const std::string& path, const Frame& frame, const Metadata& metadata) {
@@ -125,8 +131,9 @@ void write_png_linear16(const std::string& path, const Frame& frame, const Metad
   for (const glm::vec3& color : frame.color) {
     for (const float channel : {color.x, color.y, color.z}) values.push_back(quantised16(channel));
   }
-  encode(path, "png", spec,
-         [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeUInt16, values.data()); });
+  write_file(path, encode(path, "png", spec, [&](OIIO::ImageOutput& output) {
+               return output.write_image(OIIO::TypeUInt16, values.data());
+             }));
 }
 
 void write_exr(const std::string& path, const Frame& frame, const Metadata& metadata) {
@@ -147,7 +154,7 @@ void write_exr(const std::string& path, const Frame& frame, const Metadata& meta
 
   // A multiple of the 16 rows that zip compresses together, and few enough that the packed copy stays small.
   constexpr int kRows = 64;
-  encode(path, "openexr", spec, [&](OIIO::ImageOutput& output) {
+  const auto write_rows = [&](OIIO::ImageOutput& output) {
     for (int y = frame.window.y0; y < frame.window.y1; y += kRows) {
       const int y_end = std::min(y + kRows, frame.window.y1);
       const std::size_t begin = frame.index(frame.window.x0, y);
@@ -156,7 +163,8 @@ void write_exr(const std::string& path, const Frame& frame, const Metadata& meta
       if (!output.write_scanlines(y, y_end, 0, OIIO::TypeUnknown, packed.data())) return false;
     }
     return true;
-  });
+  };
+  write_file(path, encode(path, "openexr", spec, write_rows));
 }
 
 }  // namespace sidelight

@@ -141,6 +141,8 @@ TEST_CASE("PNG of 8 bits: all codes come back as linear values") {
     image.rgb.insert(image.rgb.end(), {byte, static_cast<std::uint8_t>(255 - byte), 0});
   }
   write_png(folder / "codes.png", image);
+  const std::vector<std::uint8_t> in_memory = encode_png(image);
+  CHECK(std::string(in_memory.begin(), in_memory.end()) == read_bytes(folder / "codes.png"));
   const ImageFile file = read_image(folder / "codes.png");
   CHECK(file.png);
   CHECK(file.width == 16);
