@@ -29,7 +29,9 @@
 #include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
+#include "common/picture/srgb.h"
 #include "common/scene/scene.h"
 
 namespace sidelight {
@@ -145,10 +147,8 @@ Cause sum_up(const std::vector<glm::vec3>& term) {
   return cause;
 }
 
-// Of |color|, by the weights of Rec. 709, whose primaries are sRGB's.
-float luminance(const glm::vec3& color) {
-  return 0.2126f * std::abs(color.x) + 0.7152f * std::abs(color.y) + 0.0722f * std::abs(color.z);
-}
+// Of |color|.
+float luminance(const glm::vec3& color) { return glm::dot(kLuminance, glm::abs(color)); }
 
 glm::vec3 cause_color(const Frame& rastered, const Frame& traced, std::size_t i) {
   if (rastered.color[i] == traced.color[i]) return glm::vec3(0);
@@ -199,6 +199,19 @@ std::vector<glm::vec3> cause_map(const Frame& rastered, const Frame& traced) {
   std::vector<glm::vec3> map(rastered.pixels());
   for (std::size_t i = 0; i < map.size(); ++i) map[i] = cause_color(rastered, traced, i);
   return map;
+}
+
+std::array<std::vector<glm::vec3>, 4> ledger_sums(const Frame& rastered, const Frame& traced) {
+  assert_comparable(rastered, traced);
+  assert_has_causes(traced);
+  std::array<std::vector<glm::vec3>, 4> sums{rastered.color, {}, {}, {}};
+  for (std::size_t k = 0; k < kCauseLayers.size(); ++k) {
+    const std::vector<glm::vec3>& term = traced.layer(kCauseLayers[k]);
+    const float sign = kCauseLayers[k] == Layer::shadow ? -1.0f : 1.0f;
+    sums[k + 1] = sums[k];
+    for (std::size_t i = 0; i < term.size(); ++i) sums[k + 1][i] += sign * term[i];
+  }
+  return sums;
 }
 
 std::vector<glm::vec3> absolute_difference(const Frame& rastered, const Frame& traced) {

@@ -47,6 +47,9 @@ inline constexpr std::array<Layer, 3> kCauseLayers{Layer::shadow, Layer::reflect
 inline constexpr std::array<const char*, 3> kCauseNames{"shadow", "reflection", "refraction"};  // in their order
 extern const std::array<glm::vec3, 3> kCauseHues;  // linear RGB, likewise
 
+// The z-buffer's picture becoming the tracer's: R, R - S, R - S + M and R - S + M + G. `traced` with the ledger layers.
+std::array<std::vector<glm::vec3>, 4> ledger_sums(const Frame& rastered, const Frame& traced);
+
 // |traced - rastered|, for difference.png.
 std::vector<glm::vec3> absolute_difference(const Frame& rastered, const Frame& traced);
 

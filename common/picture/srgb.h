@@ -11,6 +11,9 @@
 
 namespace sidelight {
 
+// What R, G and B of a linear colour weigh in its luminance (Rec. 709, whose primaries are sRGB's).
+inline constexpr glm::vec3 kLuminance{0.2126f, 0.7152f, 0.0722f};
+
 // 8-bit RGB, top row first.
 struct Image8 {
   int width = 0, height = 0;

@@ -279,3 +279,16 @@ TEST_CASE("the absolute difference") {
   CHECK(difference[2] == glm::vec3(0, 0.5f, 1));
   CHECK(difference[4] == glm::vec3(0));
 }
+
+TEST_CASE("the ledger's sums lead from the left picture to the right one") {
+  Pair pair = equal_pair(2, 1);
+  pair.traced.layer(Layer::shadow)[1] = glm::vec3(0.25f);
+  pair.traced.layer(Layer::reflection)[1] = glm::vec3(0.125f, 0, 0);
+  pair.traced.layer(Layer::refraction)[1] = glm::vec3(0, 0, 1);
+  const auto sums = ledger_sums(pair.rastered, pair.traced);
+  for (const auto& sum : sums) CHECK(sum[0] == glm::vec3(0.5f));
+  CHECK(sums[0][1] == glm::vec3(0.5f));
+  CHECK(sums[1][1] == glm::vec3(0.25f));
+  CHECK(sums[2][1] == glm::vec3(0.375f, 0.25f, 0.25f));
+  CHECK(sums[3][1] == glm::vec3(0.375f, 0.25f, 1.25f));
+}

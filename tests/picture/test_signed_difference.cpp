@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "common/picture/signed_difference.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "common/picture/srgb.h"
+#include "tests/picture/frames.h"
+
+using namespace sidelight;
+using namespace sidelight::testing;
+
+namespace {
+
+float lightness(double difference) { return glm::dot(signed_difference_color(difference), kLuminance); }
+
+}  // namespace
+
+TEST_CASE("signed difference: lightness alone tells the sign and the amount") {
+  const double steps[] = {-1, -0.5, -0.25, -0.01, -1e-4, 0, 1e-4, 0.01, 0.25, 0.5, 1};
+  for (std::size_t i = 1; i < std::size(steps); ++i) CHECK(lightness(steps[i - 1]) < lightness(steps[i]));
+}
+
+TEST_CASE("signed difference: neutral at zero, yellow above, violet below, full beyond one") {
+  const glm::vec3 equal = signed_difference_color(0), above = signed_difference_color(0.3),
+                  below = signed_difference_color(-0.3);
+  CHECK(equal.x == equal.y);
+  CHECK(equal.y == equal.z);
+  CHECK(above.x > above.z);  // red and green against blue: the axis that red-green-blind eyes keep
+  CHECK(above.y > above.z);
+  CHECK(below.z > below.x);
+  CHECK(below.z > below.y);
+  const double infinity = std::numeric_limits<double>::infinity();
+  CHECK(signed_difference_color(1) == signed_difference_color(infinity));
+  CHECK(signed_difference_color(-1) == signed_difference_color(-7));
+  CHECK(signed_difference_color(std::nan("")) == glm::vec3(1));
+}
+
+TEST_CASE("signed difference: halfway at a quarter, in sRGB codes") {
+  const auto red = [](double difference) { return int{encode_srgb8(signed_difference_color(difference).x)}; };
+  CHECK(std::abs(2 * red(0.25) - red(0) - red(1)) <= 2);  // each code is rounded by half a step at most
+  CHECK(std::abs(2 * red(-0.25) - red(0) - red(-1)) <= 2);
+}
+
+TEST_CASE("signed difference: a picture of luminance, traced minus rastered") {
+  Pair pair = equal_pair(3, 1);
+  pair.traced.color[1].y += 0.25f;
+  pair.rastered.color[2].y += 0.25f;
+  const std::vector<glm::vec3> picture = signed_difference(pair.rastered, pair.traced);
+  REQUIRE(picture.size() == 3);
+  CHECK(picture[0] == signed_difference_color(0));
+  const double green = double{kLuminance.y} * 0.25;  // exact: 0.5, 0.25 and their sum are powers of two
+  CHECK(picture[1] == signed_difference_color(green));
+  CHECK(picture[2] == signed_difference_color(-green));
+}
