@@ -11,7 +11,7 @@ Renders one scene twice, with a z-buffer and with a ray tracer, and accounts for
 
   1. installs the Debian packages that are missing (asks for root only then)
   2. builds the program into build/demo
-  3. writes both pictures, their difference and its causes into DIR
+  3. writes both pictures, their difference, its causes and report.html, which explains them, into DIR
   4. opens the window, if there is a display
 
   SCENE.toml   default: scenes/showcase.toml
@@ -45,7 +45,7 @@ mkdir -p -- "$(dirname -- "$out")"
 
 printf '\nWritten to %s:\n' "$out"
 for file in "$out"/*; do echo "  $(basename -- "$file")"; done
-echo "Open side_by_side.png first: both pictures of the scene; causes.png then says why they differ."
+echo "Open report.html first, in any browser: both pictures, why they differ, and each step from one to the other."
 
 if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
   echo "Opening the window: space flips the two pictures, Esc closes."

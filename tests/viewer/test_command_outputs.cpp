@@ -15,7 +15,7 @@ const Arguments kSmall{"good.toml", "-r", "16x12"};
 
 const std::vector<std::string> kCompareFiles{"causes.png",   "compare.json",    "difference.png",
                                              "raster.exr",   "raster.png",      "raytrace.exr",
-                                             "raytrace.png", "side_by_side.png"};
+                                             "raytrace.png", "report.html",     "side_by_side.png"};
 
 Arguments render(const Arguments& more) { return Arguments{"render"} + kSmall + more; }
 Arguments compare_into(const std::string& folder, const Arguments& more = {}) {
@@ -154,7 +154,7 @@ TEST_CASE("output: the statistics have the documented keys") {
   CHECK(json["tests"] > 16 * 12 * 4);  // each of them asks at least the plane
 }
 
-TEST_CASE("output: compare writes its eight files and the documented keys") {
+TEST_CASE("output: compare writes its nine files and the documented keys") {
   const Workplace here;
   REQUIRE(here.run(compare_into("out")).code == 0);
   CHECK(here.names("out") == kCompareFiles);

@@ -9,6 +9,7 @@
 #include "viewer/commands/commands.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
+#include "viewer/report/compare_report.h"
 #include "viewer/window/offscreen.h"
 
 namespace sidelight {
@@ -34,22 +35,24 @@ std::string comparison_json(const Job& job, const Comparison& result, const Time
                                 {"reflection", cause_json(result.reflection)},
                                 {"refraction", cause_json(result.refraction)}}},
                               {"metrics", metrics_json(result.metrics)}};
-  const auto times = [](const TimedFrame& t) {
+  const auto times_json = [](const TimedFrame& t) {
     return nlohmann::ordered_json{{"build", t.build_ms}, {"frame", t.frame_ms}};
   };
-  if (!job.flags.no_times) json["time_ms"] = {{"raster", times(rastered)}, {"raytrace", times(traced)}};
+  if (!job.flags.no_times) json["time_ms"] = {{"raster", times_json(rastered)}, {"raytrace", times_json(traced)}};
   json["faults"] = nlohmann::ordered_json::object();
   return json.dump(2) + "\n";
 }
 
 Image8 picture(const Frame& frame) { return to_image8(frame.color, frame.width(), frame.height()); }
 
+Times times(const TimedFrame& timed) { return {timed.build_ms, timed.frame_ms}; }
+
 Labels labels(const Job& job, const TimedFrame& rastered, const TimedFrame& traced) {
   Labels out;
   out.title = job.scene.title.empty() ? job.flags.scene : job.scene.title;
   if (!job.flags.no_times) {
-    out.left.times = Times{rastered.build_ms, rastered.frame_ms};
-    out.right.times = Times{traced.build_ms, traced.frame_ms};
+    out.left.times = times(rastered);
+    out.right.times = times(traced);
   }
   return out;
 }
@@ -68,6 +71,18 @@ void write_pictures(const Job& job, const std::string& folder, const TimedFrame&
   write_exr(folder + "/raytrace.exr", traced.frame, trace_metadata);
 }
 
+std::string report(const Job& job, const Comparison& result, const TimedFrame& rastered, const TimedFrame& traced) {
+  const Metrics::Max& max = result.metrics.max;
+  CompareReport out{job.scene, rastered.frame, traced.frame, result, job_metadata(job, "raster, raytrace"),
+                    fmt::format("{} --pixel {},{}", command_line(job, "explain"), max.x, max.y),
+                    command_line(job, "view"), {}, {}};
+  if (!job.flags.no_times) {
+    out.raster_times = times(rastered);
+    out.traced_times = times(traced);
+  }
+  return compare_report(out);
+}
+
 // What a person wants to read first; on stderr, as stdout is for data.
 void print_summary(const Comparison& result, const std::string& folder) {
   fmt::print(stderr, "{}x{}: {} visibility mismatches, {} unexplained pixels\n", result.width, result.height,
@@ -82,7 +97,7 @@ void print_summary(const Comparison& result, const std::string& folder) {
     fmt::print(stderr, "  first mismatch at pixel {},{}\n", result.mismatch_x, result.mismatch_y);
   if (result.unexplained > 0)
     fmt::print(stderr, "  first unexplained pixel at {},{}\n", result.unexplained_x, result.unexplained_y);
-  fmt::print(stderr, "wrote {}/side_by_side.png, causes.png, difference.png, compare.json and more\n", folder);
+  fmt::print(stderr, "wrote {}/report.html, side_by_side.png, causes.png, compare.json and more\n", folder);
 }
 
 int run_compare(const CompareFlags& flags) {
@@ -99,6 +114,7 @@ int run_compare(const CompareFlags& flags) {
   const Comparison result = compare(rastered.frame, traced.frame, job.scene.lights.size());
   write_pictures(job, flags.folder, rastered, traced);
   write_text_file(flags.folder + "/compare.json", comparison_json(job, result, rastered, traced));
+  write_text_file(flags.folder + "/report.html", report(job, result, rastered, traced));
   if (!flags.job.quiet) print_summary(result, printable(flags.folder));
   return result.agrees() ? 0 : 1;
 }
@@ -109,9 +125,10 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<CompareFlags>();
   CLI::App* verb = app.add_subcommand("compare", "both pictures of a scene, their difference, and the reason for it");
   add_job_flags(*verb, flags->job);
-  verb->add_option("-o,--output", flags->folder, "folder for the pictures and compare.json")->required();
+  verb->add_option("-o,--output", flags->folder, "folder for the report, the pictures and compare.json")->required();
   verb->add_flag("--no-times", flags->job.no_times, "leave times out, so that equal runs give equal files");
   verb->footer(
+      "DIR/report.html, opened by a double click, shows and explains it all.\n"
       "Exit code 1 if any sample or pixel is not accounted for.\n"
       "Examples:\n"
       "  sidelight compare scenes/showcase.toml -o out/showcase\n"

@@ -59,6 +59,15 @@ Isa parse_isa_flag(const JobFlags& flags) {
   return *isa;
 }
 
+// As one word of a POSIX shell.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 void apply_trace(const JobFlags& flags, TraceSettings& trace) {
   if (flags.depth != 0) trace.depth = flags.depth;
   if (flags.no_shadows || flags.local) trace.shadows = false;
@@ -148,6 +157,19 @@ Metadata job_metadata(const Job& job, const std::string& renderer) {
           {"shadows", on(trace.shadows)},
           {"reflection", on(trace.reflection)},
           {"refraction", on(trace.refraction)}};
+}
+
+std::string command_line(const Job& job, std::string_view verb) {
+  const JobFlags& flags = job.flags;
+  std::string line = fmt::format("sidelight {} {}", verb, shell_word(flags.scene));
+  if (!flags.size.empty()) line += " -r " + flags.size;
+  if (flags.spp != 1) line += fmt::format(" --spp {}", flags.spp);
+  if (flags.depth != 0) line += fmt::format(" --depth {}", flags.depth);
+  if (flags.no_shadows) line += " --no-shadows";
+  if (flags.no_reflection) line += " --no-reflection";
+  if (flags.no_refraction) line += " --no-refraction";
+  if (flags.local) line += " --local";
+  return line;
 }
 
 double wall_ms() {

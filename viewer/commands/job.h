@@ -6,6 +6,7 @@
 #include <CLI/App.hpp>
 #include <glm/vec2.hpp>
 #include <string>
+#include <string_view>
 
 #include "common/picture/frame.h"
 #include "common/picture/image_io.h"
@@ -53,6 +54,10 @@ void check_memory(const Job& job);
 
 // The settings of the job, for a picture's metadata: scene, hash, size, samples, depth, switches, version.
 Metadata job_metadata(const Job& job, const std::string& renderer);
+
+// What to type into a shell to run `verb` on the scene as this job renders it: "sidelight explain scene.toml --spp 4".
+// The crop is left out, since pixels count from the whole picture's corner.
+std::string command_line(const Job& job, std::string_view verb);
 
 // Milliseconds of wall time, and of processor time of all threads, since some fixed moment.
 double wall_ms();

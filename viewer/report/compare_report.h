@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The report of a comparison: one page that shows both pictures, tells what differs and why, builds the right picture
+// from the left one term by term, and says how to go on.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/picture/compare.h"
+#include "common/picture/image_io.h"
+#include "common/scene/scene.h"
+#include "viewer/window/panels.h"
+
+namespace sidelight {
+
+struct CompareReport {
+  const Scene& scene;
+  const Frame& rastered;  // with kRasterLayers
+  const Frame& traced;    // with kLedgerLayers
+  const Comparison& result;
+  Metadata settings;            // what was rendered, shown as a table
+  std::string explain_command;  // for the pixel of greatest difference; what to type, as view_command
+  std::string view_command;
+  std::optional<Times> raster_times, traced_times;
+};
+
+// The page. Pictures of more than 2^22 pixels are embedded reduced by a whole factor, which the page says. Equal
+// arguments give equal bytes.
+std::string compare_report(const CompareReport& report);
+
+}  // namespace sidelight

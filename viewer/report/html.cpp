@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/report/html.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/picture/image_io.h"
+#include "common/utf8.h"
+
+namespace sidelight {
+namespace {
+
+constexpr std::string_view kReplacement = "\uFFFD";
+constexpr int kLeastWidth = 480;  // of a picture on the page, in CSS pixels: what is smaller is enlarged
+
+// The code point of a well-formed sequence.
+char32_t decoded(std::string_view sequence) {
+  constexpr std::array<unsigned, 5> kLeadBits{0, 0x7F, 0x1F, 0x0F, 0x07};
+  char32_t code = static_cast<unsigned char>(sequence[0]) & kLeadBits[sequence.size()];
+  for (const char c : sequence.substr(1)) code = code << 6 | (static_cast<unsigned char>(c) & 0x3Fu);
+  return code;
+}
+
+bool is_control(char32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
+
+// Marks, embeddings, overrides and isolates of the bidirectional algorithm (Unicode Standard Annex 9, section 2), and
+// the separators of lines and paragraphs that stand among them.
+bool turns_direction(char32_t code) {
+  return code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+         (code >= 0x2066 && code <= 0x2069);
+}
+
+std::string_view inert(std::string_view sequence) {
+  switch (sequence[0]) {
+    case '&':
+      return "&amp;";
+    case '<':
+      return "&lt;";
+    case '>':
+      return "&gt;";
+    case '"':
+      return "&quot;";
+    case '\'':
+      return "&#39;";
+    case '\t':
+    case '\r':
+    case '\n':
+      return " ";
+    default:
+      break;
+  }
+  const char32_t code = decoded(sequence);
+  return is_control(code) || turns_direction(code) ? kReplacement : sequence;
+}
+
+// By which whole factor a picture is enlarged on the page.
+int enlargement(const Image8& image) { return std::max(1, kLeastWidth / image.width); }
+
+Html image_html(const Figure& figure) {
+  const int factor = enlargement(figure.image);
+  return html(R"(<img src="data:image/png;base64,{}" width="{}" height="{}" alt="{}"{}>)",
+              Html{base64(encode_png(figure.image))}, factor * figure.image.width,
+              factor * figure.image.height, escaped(figure.alt, 1000),
+              Html{factor > 1 ? " class=\"enlarged\"" : ""});
+}
+
+}  // namespace
+
+Html escaped(std::string_view text, std::size_t max_length) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    if (i >= max_length) return {out + "…"};
+    const std::size_t length = utf8_length(text, i);
+    out += length == 0 ? kReplacement : inert(text.substr(i, length));
+    i += std::max<std::size_t>(length, 1);
+  }
+  return {out};
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return out;
+}
+
+std::string grouped(std::uint64_t number) {
+  const std::string digits = std::to_string(number);
+  std::string out;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) out += "\u202F";
+    out += digits[i];
+  }
+  return out;
+}
+
+Html figure_html(const Figure& figure) {
+  return html("<figure>{}<figcaption>{}</figcaption></figure>\n", image_html(figure), figure.caption);
+}
+
+Html pair_html(const Figure& left, const Figure& right) {
+  return html(R"(<div class="pair" data-mode="two-up" style="--picture-width:{}px;--ratio:{}/{}">
+<div class="controls" hidden>
+<fieldset><legend>Show the pictures</legend>
+<label><input type="radio" name="pair" value="two-up" checked>side by side</label>
+<label><input type="radio" name="pair" value="swipe">swipe</label>
+<label><input type="radio" name="pair" value="flip">in place</label>
+</fieldset>
+<button type="button" class="flip">Flip <kbd>F</kbd></button>
+</div>
+<div class="stage">
+{}{}<div class="cover"><input type="range" min="0" max="1000" step="5" value="500" aria-label="Where the left picture ends and the right one begins"></div>
+</div>
+</div>
+)",
+              enlargement(left.image) * left.image.width, left.image.width, left.image.height,
+              figure_html(left), figure_html(right));
+}
+
+Html steps_html(std::string_view name, const std::vector<StepPage>& pages) {
+  Html buttons, items;
+  for (const StepPage& page : pages) {
+    buttons += html(R"(<label><input type="radio" name="{}"{}>{}</label>
+)",
+                    name, Html{buttons.empty() ? " checked" : ""}, page.label);
+    items += html("<li>{}</li>\n", page.content);
+  }
+  return html(R"(<div class="steps">
+<div class="controls" hidden>
+<fieldset><legend>Show the step</legend>
+{}</fieldset>
+<button type="button" class="back">Back</button>
+<button type="button" class="next">Next</button>
+</div>
+<ol>
+{}</ol>
+</div>
+)",
+              buttons, items);
+}
+
+Html table_html(const Table& table) {
+  Html head, rows;
+  for (const std::string& column : table.columns) head += html("<th scope=\"col\">{}</th>", column);
+  for (const std::vector<Html>& row : table.rows) {
+    rows += html("<tr><th scope=\"row\">{}</th>", row.front());
+    for (auto cell = row.begin() + 1; cell != row.end(); ++cell) rows += html("<td>{}</td>", *cell);
+    rows += html("</tr>\n");
+  }
+  if (!head.empty()) head = html("<thead><tr>{}</tr></thead>\n", head);
+  return html("<table><caption>{}</caption>\n{}<tbody>\n{}</tbody></table>\n", table.caption, head, rows);
+}
+
+// The policy forbids every request, whatever the page holds.
+std::string page_html(std::string_view title, const Html& body) {
+  return html(R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta name="generator" content="sidelight )" SIDELIGHT_VERSION R"(">
+<title>{}</title>
+<style>{}</style>
+</head>
+<body>
+<main>
+{}</main>
+<script>{}</script>
+</body>
+</html>
+)",
+              title, Html{std::string(kPageStyle)}, body, Html{std::string(kPageScript)})
+      .markup;
+}
+
+}  // namespace sidelight

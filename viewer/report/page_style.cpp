@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// How a report looks: one column of text, pictures as wide as there is room, light or dark as the reader's system is.
+// Colours of text have a contrast of at least 4.5 to their ground, colours of curves one of at least 3.
+#include "viewer/report/html.h"
+
+namespace sidelight {
+
+const std::string_view kPageStyle = R"css(
+:root {
+  color-scheme: light dark;
+  --paper: #fff; --ink: #1b1d22; --quiet: #575c66; --rule: #d5d8de; --panel: #f4f5f7;
+  --accent: #0b5cad; --on-accent: #fff; --bad: #a8201a;
+  --c0: #0072b2; --c1: #c44e00; --c2: #00835f; --c3: #a2457f; --c4: #8a6100; --c5: #1b1d22;
+}
+@media (prefers-color-scheme: dark) {
+  :root {
+    --paper: #14161a; --ink: #e9ebef; --quiet: #a7adb8; --rule: #3a3f49; --panel: #1e2127;
+    --accent: #7cb8f5; --on-accent: #10131a; --bad: #ff8a80;
+    --c0: #56b4e9; --c1: #ff8a3d; --c2: #2bc49a; --c3: #e59ac8; --c4: #e6b93c; --c5: #e9ebef;
+  }
+}
+* { box-sizing: border-box; }
+body {
+  margin: 0; background: var(--paper); color: var(--ink);
+  font: 1.0625rem/1.55 system-ui, "Segoe UI", "Helvetica Neue", Arial, "DejaVu Sans", sans-serif;
+  overflow-wrap: anywhere;
+}
+main { max-width: 84rem; margin: 0 auto; padding: 2.5rem clamp(1rem, 3vw, 2.5rem) 4rem; }
+h1, h2, h3 { line-height: 1.2; text-wrap: balance; overflow: clip; overflow-clip-margin: 0.2em; }
+h1 { font-size: clamp(1.9rem, 4vw, 2.9rem); font-weight: 650; letter-spacing: -0.015em; margin: 0.2rem 0 1rem; }
+h2 { font-size: 1.6rem; font-weight: 650; letter-spacing: -0.01em; margin: 3.5rem 0 0.6rem;
+     padding-top: 1.2rem; border-top: 1px solid var(--rule); }
+h3 { font-size: 1.15rem; margin: 0 0 0.4rem; }
+.lobes + h3, .lobes + .quiet { margin-top: 2rem; }
+p, dl, figcaption, table { max-width: 46rem; }
+p { margin: 0 0 1rem; }
+.lesson { font-size: 1.15rem; overflow: clip; overflow-clip-margin: 0.3em; }
+.over, .quiet, figcaption, caption { color: var(--quiet); }
+.over { margin: 0; }
+.verdict { border-left: 0.3rem solid var(--accent); padding: 0.3rem 0 0.3rem 1rem; margin: 1.5rem 0; }
+.verdict.bad { border-color: var(--bad); }
+.verdict strong { font-size: 1.15rem; }
+code, kbd { font-family: ui-monospace, "Cascadia Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace;
+            font-size: 0.9em; }
+kbd { border: 1px solid; border-radius: 0.2rem; padding: 0 0.35em; opacity: 0.8; }
+pre { background: var(--panel); border: 1px solid var(--rule); border-radius: 0.4rem; padding: 0.8rem 1rem;
+      margin: 0 0 1rem; white-space: pre-wrap; }
+.formula { font: italic 1.35rem/1.5 "Iowan Old Style", Palatino, Georgia, "DejaVu Serif", serif; }
+
+figure { margin: 0; min-width: 0; }
+figcaption { margin-top: 0.5rem; font-size: 0.95rem; line-height: 1.45; }
+figcaption b { color: var(--ink); }
+img, svg { display: block; max-width: 100%; height: auto; }
+.enlarged { image-rendering: pixelated; }
+.columns { display: grid; gap: 1.5rem; grid-template-columns: repeat(auto-fit, minmax(min(26rem, 100%), 1fr)); }
+.lobes { display: grid; gap: 1.5rem 1rem; grid-template-columns: repeat(auto-fill, minmax(min(15rem, 100%), 1fr)); }
+
+table { border-collapse: collapse; min-width: min(100%, 30rem); margin: 1rem 0 1.5rem; font-variant-numeric: tabular-nums; }
+caption { text-align: left; padding-bottom: 0.4rem; }
+th, td { padding: 0.35rem 1.6rem 0.35rem 0; border-bottom: 1px solid var(--rule); text-align: left;
+         vertical-align: top; font-weight: 400; }
+thead th { color: var(--quiet); font-size: 0.92rem; }
+thead th:not(:first-child), td { text-align: right; padding-right: 0.4rem; padding-left: 1.2rem; }
+.swatch { display: inline-block; width: 0.85em; height: 0.85em; margin-right: 0.5em; border-radius: 0.15em;
+          border: 1px solid var(--quiet); vertical-align: -0.08em; }
+.scale { max-width: 46rem; margin-top: 0.8rem; }
+.scale img { width: 100%; height: 1rem; image-rendering: pixelated; }
+.scale div { display: flex; justify-content: space-between; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
+
+.controls:not([hidden]) { display: flex; flex-wrap: wrap; gap: 0.6rem; margin: 0.5rem 0 1rem; }
+fieldset { border: 0; margin: 0; padding: 0; display: flex; flex-wrap: wrap; min-width: 0; }
+legend { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+.controls label, button { font: inherit; line-height: 1.3; padding: 0.45rem 1rem; background: var(--panel);
+                          color: var(--ink); border: 1px solid var(--rule); cursor: pointer; }
+button { border-radius: 0.4rem; }
+.controls label { margin-left: -1px; }
+.controls label:first-of-type { border-radius: 0.4rem 0 0 0.4rem; margin-left: 0; }
+.controls label:last-of-type { border-radius: 0 0.4rem 0.4rem 0; }
+.controls label:has(:checked) { background: var(--accent); color: var(--on-accent); border-color: var(--accent); }
+.controls label input { position: absolute; opacity: 0; pointer-events: none; }
+:focus-visible, .controls label:has(:focus-visible), .cover:focus-within {
+  outline: 3px solid var(--accent); outline-offset: 3px; z-index: 1;
+}
+
+/* Two pictures: beside each other; else in one cell, as large as the window allows. */
+.stage { display: grid; gap: 1.5rem; grid-template-columns: repeat(auto-fit, minmax(min(20rem, 100%), 1fr));
+         position: relative; }
+.cover { display: none; }
+.pair:not([data-mode=two-up]) .stage {
+  grid-template-columns: 1fr;
+  width: min(100%, 2 * var(--picture-width), (100vh - 9rem) * var(--ratio));
+}
+.pair:not([data-mode=two-up]) .stage > * { grid-area: 1 / 1; }
+.pair:not([data-mode=two-up]) img { width: 100%; }
+.pair[data-mode=swipe] .cover { display: block; position: relative; width: 100%; aspect-ratio: var(--ratio);
+                                align-self: start; }
+.pair[data-mode=swipe] .cover::after {
+  content: "\2194"; position: absolute; top: 0; bottom: 0; left: var(--at); width: 2px; margin-left: -1px;
+  background: #fff; box-shadow: 0 0 0 1px #000; pointer-events: none;
+  display: grid; place-content: center; font: 1.3rem/2rem sans-serif; color: #fff; text-shadow: 0 0 2px #000, 0 0 6px #000;
+}
+.pair[data-mode=swipe] input[type=range] { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0;
+                                           opacity: 0; cursor: ew-resize; touch-action: pan-y; }
+.pair[data-mode=swipe] figure:nth-of-type(2) img { clip-path: inset(0 0 0 var(--at)); }
+.pair[data-mode=swipe] figure:nth-of-type(1) figcaption { margin-right: 52%; }
+.pair[data-mode=swipe] figure:nth-of-type(2) figcaption { margin-left: 52%; text-align: right; }
+.pair[data-mode=flip] figure { visibility: hidden; }
+.pair[data-mode=flip][data-shown=left] figure:nth-of-type(1),
+.pair[data-mode=flip][data-shown=right] figure:nth-of-type(2) { visibility: visible; }
+
+/* Steps: all below each other, or one at a time in the same place. */
+.steps ol { list-style: none; margin: 0; padding: 0; }
+.steps li { margin: 0 0 3rem; }
+.steps.one li { display: none; margin: 0; }
+.steps.one li.shown { display: block; }
+.step { display: grid; gap: 1rem 1.5rem; grid-template-columns: minmax(0, 1fr) minmax(0, 2fr); }
+.step > :last-child img { width: min(100%, 60rem); }
+.terms figure { display: grid; gap: 0.8rem; grid-template-columns: minmax(0, 15rem) 1fr; margin-bottom: 0.8rem; }
+.terms figcaption { margin: 0; align-self: end; }
+@media (max-width: 46rem) { .step { grid-template-columns: minmax(0, 1fr); } }
+
+/* Plots. */
+svg { font: 13px system-ui, "Segoe UI", Arial, "DejaVu Sans", sans-serif; fill: var(--ink); overflow: hidden; }
+svg .grid { stroke: var(--rule); stroke-width: 1; fill: none; }
+svg .frame { stroke: var(--quiet); stroke-width: 1.2; fill: none; }
+svg .quiet { fill: var(--quiet); }
+svg .curve { fill: none; stroke-width: 2.2; stroke-linejoin: round; stroke-linecap: round; }
+svg .lobe { fill: var(--c0); fill-opacity: 0.18; stroke: var(--c0); stroke-width: 2; stroke-linejoin: round; }
+svg .c0 { stroke: var(--c0); } svg .c1 { stroke: var(--c1); } svg .c2 { stroke: var(--c2); }
+svg .c3 { stroke: var(--c3); } svg .c4 { stroke: var(--c4); } svg .c5 { stroke: var(--c5); }
+@media print {
+  .controls { display: none !important; }
+  .steps.one li { display: block; }
+  h2, figure, li { break-inside: avoid; }
+}
+)css";
+
+}  // namespace sidelight
