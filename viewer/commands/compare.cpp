@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "viewer/commands/all_modes.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
@@ -18,6 +19,7 @@ namespace {
 struct CompareFlags {
   JobFlags job;
   std::string folder;
+  bool all_modes = false;
 };
 
 nlohmann::ordered_json cause_json(const Cause& cause) { return {{"pixels", cause.pixels}, {"energy", cause.energy}}; }
@@ -115,6 +117,7 @@ int run_compare(const CompareFlags& flags) {
   write_pictures(job, flags.folder, rastered, traced);
   write_text_file(flags.folder + "/compare.json", comparison_json(job, result, rastered, traced));
   write_text_file(flags.folder + "/report.html", report(job, result, rastered, traced));
+  if (flags.all_modes) write_all_modes(job, flags.folder + "/modes", rastered.frame, traced.frame);
   if (!flags.job.quiet) print_summary(result, printable(flags.folder));
   return result.agrees() ? 0 : 1;
 }
@@ -127,12 +130,13 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   add_job_flags(*verb, flags->job);
   verb->add_option("-o,--output", flags->folder, "folder for the report, the pictures and compare.json")->required();
   verb->add_flag("--no-times", flags->job.no_times, "leave times out, so that equal runs give equal files");
+  verb->add_flag("--all-modes", flags->all_modes, "also each layer and each step of the ledger, as pictures in DIR/modes");
   verb->footer(
       "DIR/report.html, opened by a double click, shows and explains it all.\n"
       "Exit code 1 if any sample or pixel is not accounted for.\n"
       "Examples:\n"
       "  sidelight compare scenes/showcase.toml -o out/showcase\n"
-      "  sidelight compare scenes/06-shadows.toml -o out/shadows -r 320x240 --spp 9");
+      "  sidelight compare scenes/06-shadows.toml -o out/shadows -r 320x240 --spp 9 --all-modes");
   verb->callback([flags, &exit_code] { exit_code = run_compare(*flags); });
 }
 
