@@ -63,9 +63,8 @@ std::vector<Material> materials(int count_of) {
 // A good scene whose every text is out to break the page. TOML takes no control characters but by escapes.
 std::string hostile_scene() {
   const std::string attack =
-      "</title></style></script><script>document.title='taken'</script><img src=x onerror=alert(1)>'\\\" "
-      "onload='x "
-      "&lt; {} {0} --> ]]> \\u0000\\u0007\\u001b[31m\\u0085 \\u202e\\u2066\\u200f\\u2028 ";
+      R"(</title></style></script><script>document.title='taken'</script><img src=x onerror=alert(1)>'\")"
+      R"( onload='x &lt; {} {0} --> ]]> \u0000\u0007\u001b[31m\u0085 \u202e\u2066\u200f\u2028 )";
   const std::string endless(30000, 'W'), stacked = [] {
     std::string text = "Z";
     for (int i = 0; i < 200; ++i) text += "\u0300\u0323";  // accents above and below each other
@@ -82,7 +81,16 @@ std::string hostile_scene() {
   return scene;
 }
 
-// Runs the browser on a report in `here`; false where there is none.
+// out/report.html of a hostile scene, untitled/report.html of one that has only its name.
+void write_hostile_reports(const Workplace& here) {
+  const std::string name = "<b onclick=x>\xff\x1b\u202E'.toml";
+  write_bytes(here / name, hostile_scene());
+  REQUIRE(here.run({"compare", name, "-r", "32x24", "-q", "-o", "out"}).code == 0);
+  write_bytes(here / name, kGoodScene);
+  REQUIRE(here.run({"compare", name, "-r", "32x24", "-q", "-o", "untitled"}).code == 0);
+}
+
+// Opens and uses the report as a person would.
 void browse(const Workplace& here, const std::string& report) {
   const Outcome outcome = here.command({SIDELIGHT_SOURCE_DIR "/tests/viewer/browse_report.py", report});
   if (outcome.code == 77) return test::skip_test("no chromium");
@@ -233,13 +241,7 @@ TEST_CASE("report: the showcase's is under 5 MB") {
 
 TEST_CASE("report: hostile text of a scene and its name is inert") {
   const Workplace here;
-  const std::string name = "<b onclick=x>\xff\x1b\u202E'.toml";
-  std::string scene = hostile_scene();
-  write_bytes(here / name, scene);
-  REQUIRE(here.run({"compare", name, "-r", "32x24", "-q", "-o", "out"}).code == 0);
-  write_bytes(here / name, kGoodScene);  // without a title, the file's name is it
-  REQUIRE(here.run({"compare", name, "-r", "32x24", "-q", "-o", "untitled"}).code == 0);
-
+  write_hostile_reports(here);
   for (const char* folder : {"out", "untitled"}) {
     const std::string page = read_bytes(here / (std::string(folder) + "/report.html"));
     CHECK(count(page, "<script") == 1);
@@ -253,12 +255,17 @@ TEST_CASE("report: hostile text of a scene and its name is inert") {
   }
   CHECK(contains(between(read_bytes(here / "untitled/report.html"), "<title>", "</title>"),
                  "&lt;b onclick=x&gt;"));
-  browse(here, "out/report.html");
-  browse(here, "untitled/report.html");
 }
 
 TEST_CASE("report: in a browser it swipes, flips and steps, and needs no JavaScript and no network") {
   const Workplace here;
   REQUIRE(here.run({"compare", "good.toml", "-r", "160x120", "-q", "-o", "out"}).code == 0);
   browse(here, "out/report.html");
+}
+
+TEST_CASE("report: in a browser hostile text breaks neither the page nor its widgets") {
+  const Workplace here;
+  write_hostile_reports(here);
+  browse(here, "out/report.html");
+  browse(here, "untitled/report.html");
 }

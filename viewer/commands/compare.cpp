@@ -128,7 +128,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<CompareFlags>();
   CLI::App* verb = app.add_subcommand("compare", "both pictures of a scene, their difference, and the reason for it");
   add_job_flags(*verb, flags->job);
-  verb->add_option("-o,--output", flags->folder, "folder for the report, the pictures and compare.json")->required();
+  verb->add_option("-o,--output", flags->folder, "folder DIR for the report, the pictures and compare.json")->required();
   verb->add_flag("--no-times", flags->job.no_times, "leave times out, so that equal runs give equal files");
   verb->add_flag("--all-modes", flags->all_modes, "also each layer and each step of the ledger, as pictures in DIR/modes");
   verb->footer(
