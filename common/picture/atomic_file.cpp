@@ -64,7 +64,10 @@ std::string temporary_beside(const fs::path& path) {
   return (path.parent_path() / name).string();
 }
 
-int write_beside_and_rename(const fs::path& path, std::span<const std::uint8_t> bytes) {
+// Writes what a file is to hold; 0 or an errno.
+using Contents = std::function<int(OutputFile&)>;
+
+int write_beside_and_rename(const fs::path& path, const Contents& contents) {
   std::string temporary;
   int descriptor = -1;
   do {  // a name may be taken by what an earlier process of our number left when it was killed
@@ -74,40 +77,62 @@ int write_beside_and_rename(const fs::path& path, std::span<const std::uint8_t> 
   if (descriptor < 0) return errno;
 
   OutputFile file(descriptor, temporary);
-  if (const int error = file.write(bytes)) return error;
+  if (const int error = contents(file)) return error;
   if (const int error = file.close()) return error;
   return file.rename_to(path.string());
 }
 
-int write_directly(const fs::path& path, std::span<const std::uint8_t> bytes) {
+int write_directly(const fs::path& path, const Contents& contents) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) return errno;
   OutputFile file(descriptor, {});
-  if (const int error = file.write(bytes)) return error;
+  if (const int error = contents(file)) return error;
   return file.close();
 }
 
-int write_whole(const fs::path& path, std::span<const std::uint8_t> bytes) {
+int write_whole(const fs::path& path, const Contents& contents) {
   if (!path.has_filename()) return path.empty() ? ENOENT : EISDIR;
   std::error_code ignored;  // what cannot be looked at shows when the temporary is opened
   const fs::file_status status = fs::status(path, ignored);
   if (fs::is_directory(status)) return EISDIR;
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(path, bytes);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(path, contents);
   // Through a link, so that the link stays one.
   const fs::path target = fs::exists(status) ? fs::canonical(path, ignored) : path;
-  return write_beside_and_rename(target.empty() ? path : target, bytes);
+  return write_beside_and_rename(target.empty() ? path : target, contents);
+}
+
+void write_or_throw(const std::string& path, const Contents& contents) {
+  if (const int error = write_whole(path, contents)) {
+    throw OutputError(printable(path, 1000) + ": cannot write: " + std::generic_category().message(error));
+  }
 }
 
 }  // namespace
 
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
-  if (const int error = write_whole(path, bytes)) {
-    throw OutputError(printable(path, 1000) + ": cannot write: " + std::generic_category().message(error));
-  }
+  write_or_throw(path, [&](OutputFile& file) { return file.write(bytes); });
 }
 
 void write_text_file(const std::string& path, const std::string& text) {
   write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+void write_text_file(const std::string& path, const std::function<void(const AppendText&)>& produce) {
+  write_or_throw(path, [&](OutputFile& file) {
+    constexpr std::size_t kPiece = 1 << 16;   // bytes written at once
+    std::string piece;
+    int error = 0;
+    const auto flush = [&] {
+      if (error == 0) error = file.write({reinterpret_cast<const std::uint8_t*>(piece.data()), piece.size()});
+      piece.clear();
+    };
+    produce([&](std::string_view text) {
+      piece += text;
+      if (piece.size() >= kPiece) flush();
+    });
+    flush();
+    return error;
+  });
 }
 
 void make_folder(const std::string& path) {

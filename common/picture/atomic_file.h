@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files that appear whole or not at all. The bytes are made in memory first, written to a temporary file
-// beside the final name, and renamed over it when every error that writing can report has been ruled out. On
+// Files that appear whole or not at all. The bytes are written to a temporary file beside the final name,
+// which is renamed over it when every error that making and writing them can report has been ruled out. On
 // failure the temporary is removed and an older file of that name is untouched. (Whole for other processes,
 // that is; after a power cut the file system decides.)
 //
@@ -8,8 +8,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace sidelight {
 
@@ -18,6 +20,10 @@ namespace sidelight {
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes);
 // The same for text (JSON, say).
 void write_text_file(const std::string& path, const std::string& text);
+// The same for a text too long to be made in memory: `produce` is called once, with a function that appends to it. What
+// it throws goes through, and no file appears.
+using AppendText = std::function<void(std::string_view)>;
+void write_text_file(const std::string& path, const std::function<void(const AppendText&)>& produce);
 // Makes the folder, and its parents, if it is not there. Throws OutputError.
 void make_folder(const std::string& path);
 

@@ -115,6 +115,35 @@ TEST_CASE("a full disk leaves the older file as it was") {
   CHECK(folder.count() == 2);
 }
 
+TEST_CASE("a text made piece by piece is whole or not there") {
+  const TemporaryFolder folder;
+  std::string whole;
+  write_text_file(folder / "a.pov", [&](const AppendText& append) {
+    for (int i = 0; i < 40000; ++i) {
+      const std::string piece = std::to_string(i) + '\n';
+      append(piece);
+      whole += piece;
+    }
+  });
+  CHECK(read_bytes(folder / "a.pov") == whole);
+
+  const auto interrupted = [](const AppendText& append) {
+    append(std::string(1 << 20, 'x'));
+    throw Interrupted();
+  };
+  CHECK_THROWS_AS(write_text_file(folder / "a.pov", interrupted), Interrupted);
+  CHECK_THROWS_AS(write_text_file(folder / "b.pov", interrupted), Interrupted);
+  {
+    const FileSizeLimit limit(1000);
+    const auto long_text = [](const AppendText& append) {
+      for (int i = 0; i < 3; ++i) append(std::string(1 << 16, 'x'));
+    };
+    CHECK_THROWS_AS(write_text_file(folder / "a.pov", long_text), OutputError);
+  }
+  CHECK(read_bytes(folder / "a.pov") == whole);
+  CHECK(folder.count() == 1);
+}
+
 TEST_CASE("a link stays a link") {
   const TemporaryFolder folder;
   make_folder(folder / "elsewhere");
