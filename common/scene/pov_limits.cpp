@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// What of a scene POV-Ray 3.7 renders differently, found without rendering.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "common/scene/pov.h"
+
+namespace sidelight {
+namespace {
+
+using glm::dot;
+using glm::dvec3;
+
+struct Box {
+  dvec3 low{INFINITY}, high{-INFINITY};
+};
+
+Box box_of(const Scene& scene, const Object& object) {
+  if (object.kind == ObjectKind::plane) return {dvec3(-INFINITY), dvec3(INFINITY)};
+  if (object.kind == ObjectKind::sphere) {
+    const Sphere& sphere = scene.spheres[object.first];
+    return {sphere.center - sphere.radius, sphere.center + sphere.radius};
+  }
+  Box box;
+  for (std::uint32_t i = object.first; i < object.first + object.count; ++i)
+    for (const std::uint32_t vertex : scene.triangles[i].vertex) {
+      box.low = glm::min(box.low, scene.positions[vertex]);
+      box.high = glm::max(box.high, scene.positions[vertex]);
+    }
+  return box;
+}
+
+struct Solid {
+  std::uint32_t object;
+  Box box;
+};
+
+enum class Relation { apart, inside, unclear };
+
+// Where a solid that comes later in the file lies to one that comes before it, as far as boxes tell. POV-Ray and we
+// agree on the medium where the later one is apart from the other, or wholly inside it.
+Relation relation(const Scene& scene, const Solid& later_solid, const Solid& before_solid) {
+  const Object &later = scene.objects[later_solid.object], &before = scene.objects[before_solid.object];
+  const Box &box = later_solid.box, &other = before_solid.box;
+  const auto side_of = [&](const Object& plane_object, const Box& of) {
+    const Plane& plane = scene.planes[plane_object.first];
+    // The corners of the box that are farthest along the normal and against it.
+    const auto ahead = glm::greaterThan(plane.normal, dvec3(0));
+    if (dot(glm::mix(of.high, of.low, ahead) - plane.point, plane.normal) > 0) return Relation::apart;
+    return dot(glm::mix(of.low, of.high, ahead) - plane.point, plane.normal) < 0 ? Relation::inside
+                                                                                 : Relation::unclear;
+  };
+  const bool later_plane = later.kind == ObjectKind::plane, before_plane = before.kind == ObjectKind::plane;
+  if (later_plane && before_plane) return Relation::unclear;
+  if (before_plane) return side_of(before, box);
+  if (later_plane) return side_of(later, other) == Relation::apart ? Relation::apart : Relation::unclear;
+  if (glm::any(glm::lessThan(box.high, other.low)) || glm::any(glm::lessThan(other.high, box.low)))
+    return Relation::apart;
+  if (before.kind != ObjectKind::sphere) return Relation::unclear;
+  const Sphere& around = scene.spheres[before.first];
+  const double reach =
+      later.kind == ObjectKind::sphere
+          ? glm::distance(scene.spheres[later.first].center, around.center) +
+                scene.spheres[later.first].radius
+          : glm::length(glm::max(glm::abs(box.low - around.center), glm::abs(box.high - around.center)));
+  return reach < around.radius ? Relation::inside : Relation::unclear;
+}
+
+std::string name_of(const Scene& scene, std::uint32_t object) {
+  const SourceLocation& where = scene.objects[object].where;
+  return fmt::format(
+      "object {} (line {}, material {})", object + 1, where.line,
+      printable(scene.materials[primitive_material(scene, scene.objects[object].first_primitive)].name));
+}
+
+void add_trace_limits(const Scene& scene, std::vector<PovLimit>& out) {
+  const TraceSettings& trace = scene.trace;
+  const Attenuation& w = trace.secondary_attenuation;
+  const bool secondary = trace.reflection || trace.refraction;
+  if (secondary && (w.q0 > 1 || w.q1 > 0 || w.q2 > 0))
+    out.push_back({"trace.secondary_attenuation: POV-Ray weakens no ray with its length", {}});
+  if (secondary && trace.contribution_cut > 0)
+    out.push_back({"trace.contribution_cut: written as 0; POV-Ray follows rays of any weight", {}});
+  if (trace.depth > kPovMostLevels)
+    out.push_back(
+        {fmt::format("trace.depth {}: POV-Ray ends a path after {} rays", trace.depth, kPovMostLevels), {}});
+}
+
+void add_light_limits(const Scene& scene, std::vector<PovLimit>& out) {
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Attenuation& a = scene.lights[i].attenuation;
+    if (a.q1 > 0 && a.q2 > 0)
+      out.push_back(
+          {fmt::format("light {}: POV-Ray has no attenuation with both q1 and q2; q1 is left out", i + 1),
+           {}});
+  }
+}
+
+void add_pair_limits(const Scene& scene, const std::vector<Solid>& solids, std::vector<PovLimit>& out) {
+  constexpr int kNamed = 20;
+  int pairs = 0;
+  for (std::size_t later = 0; later < solids.size(); ++later)
+    for (std::size_t before = 0; before < later; ++before) {
+      const std::uint32_t a = solids[before].object, b = solids[later].object;
+      const Relation lies = relation(scene, solids[later], solids[before]);
+      const Material& material = scene.materials[primitive_material(scene, scene.objects[b].first_primitive)];
+      const bool inside = lies == Relation::inside && scene.objects[b].ior < scene.objects[a].ior &&
+                          material.reflect + material.refract != dvec3(1);
+      if ((lies != Relation::unclear && !inside) || ++pairs > kNamed) continue;
+      if (inside)
+        out.push_back({fmt::format("{} in {}: POV-Ray gives total reflection at its outside the weight 1",
+                                   name_of(scene, b), name_of(scene, a)),
+                       {b}});
+      else
+        out.push_back(
+            {fmt::format("{} and {}: where they touch or overlap, POV-Ray takes the one entered last for "
+                         "the medium, and shades surfaces at which it does not change",
+                         name_of(scene, a), name_of(scene, b)),
+             {a, b}});
+    }
+  if (pairs > kNamed) out.push_back({fmt::format("and {} more pairs of solids", pairs - kNamed), {}});
+}
+
+void add_object_limits(const Scene& scene, std::vector<PovLimit>& out) {
+  if (!scene.trace.refraction) return;
+  std::vector<Solid> solids;
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    bool refracts = false, mixed = false;
+    for (std::uint32_t k = 0; k < object.count; ++k) {
+      const std::uint32_t material = primitive_material(scene, object.first_primitive + k);
+      mixed = mixed || material != primitive_material(scene, object.first_primitive);
+      refracts = refracts || scene.materials[material].refract != dvec3(0);
+    }
+    if (object.solid) solids.push_back({i, box_of(scene, object)});
+    if (refracts && !object.solid)
+      out.push_back({name_of(scene, i) + ": POV-Ray takes it for the surface of a medium of index 1", {i}});
+    if (object.solid && mixed)
+      out.push_back(
+          {name_of(scene, i) + ": its parts of different materials are solids of their own to POV-Ray", {i}});
+  }
+  add_pair_limits(scene, solids, out);
+}
+
+}  // namespace
+
+std::vector<PovLimit> pov_limits(const Scene& scene) {
+  std::vector<PovLimit> out;
+  add_trace_limits(scene, out);
+  add_light_limits(scene, out);
+  add_object_limits(scene, out);
+  return out;
+}
+
+}  // namespace sidelight
