@@ -9,6 +9,7 @@
 namespace sidelight {
 
 void add_compare_command(CLI::App& app, int& exit_code);
+void add_convert_command(CLI::App& app, int& exit_code);
 void add_diff_command(CLI::App& app, int& exit_code);
 void add_explain_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
