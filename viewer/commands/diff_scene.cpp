@@ -80,26 +80,8 @@ std::string change_text(Terms change, bool raster, bool coded) {
 
 // ---- The command to type ----
 
-// As a word of a shell's command line.
-std::string shell_word(const std::string& text) {
-  const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 std::string explain_command(const Job& job, int x, int y) {
-  const JobFlags& flags = job.flags;
-  std::string line = fmt::format("sidelight explain {} --pixel {},{} -r {}",
-                                 shell_word(printable(flags.scene, 1000)), x, y, flags.size);
-  if (flags.spp != 1) line += fmt::format(" --spp {}", flags.spp);
-  if (flags.depth != 0) line += fmt::format(" --depth {}", flags.depth);
-  if (flags.no_shadows) line += " --no-shadows";
-  if (flags.no_reflection) line += " --no-reflection";
-  if (flags.no_refraction) line += " --no-refraction";
-  if (flags.local) line += " --local";
-  return line;
+  return fmt::format("{} --pixel {},{}", printable(command_line(job, "explain"), 2000), x, y);
 }
 
 // ---- For people and programs ----
