@@ -69,7 +69,7 @@ run_preset() {
   start=$SECONDS
   local report="$dir/junit.xml" code=0 before after
   before="$(stored_pictures)"
-  rm -f -- "$report"
+  rm -f -- "$report" "$dir/hardcases.tsv"
   SIDELIGHT_TIER="$(tier_of "$preset")" SIDELIGHT_BLESS="$bless" run_in "$preset" \
     ctest --test-dir "$dir" -j "$jobs" --timeout "$(entry test_timeout_seconds "$(tier_of "$preset")")" \
     --output-on-failure --no-tests=error --output-junit "$report" || code=$?
@@ -78,6 +78,14 @@ run_preset() {
   not_run=$(($(junit_count skipped "$report") + $(junit_count disabled "$report")))
   ((bad > 0 || (total > 0 && code == 0))) || bad=1 total=$((total + 1))
   record "$preset: test" "$start" $((total - bad - not_run)) "$bad" "$not_run"
+
+  echo "== $preset: hard cases"
+  start=$SECONDS
+  if "$root/tests/hardcases/table.sh" "$dir"; then
+    record "$preset: hard cases" "$start" 1 0 0
+  else
+    record "$preset: hard cases" "$start" 0 1 0
+  fi
 
   if [[ -n $bless ]]; then
     after="$(stored_pictures)"
