@@ -104,6 +104,9 @@ TEST_SUITE("math") {
       CHECK(command.rfind(" -ffp-contract=") == off);   // the last one counts
       const std::size_t no_fast_math = command.rfind(" -fno-fast-math ");
       REQUIRE(no_fast_math != std::string::npos);
+#if defined(__GNUC__) && !defined(__clang__)
+      CHECK(command.find(" -fno-tree-slp-vectorize ") != std::string::npos);
+#endif
       for (const char* flag : {" -ffast-math ", " -Ofast ", " -funsafe-math-optimizations ", " -ffinite-math-only ",
                                " -fassociative-math ", " -freciprocal-math ", " -march=native "})
         CHECK(command.find(flag) == std::string::npos);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/model/shading.h"
+#include "common/scene/build.h"
 #include "tests/support/random.h"
 #include "tests/tier.h"
 
@@ -193,4 +194,31 @@ TEST_CASE("shading lengths are scaled by a power of two, which light and attenua
     CHECK(std::abs(light_term<float>(point, tables.lights[0]).diffuse.x - expected) <=
           8 * 0x1p-24 * expected);
   }
+}
+
+// A float holds 24 bits of a coordinate, the float that is left of it 24 more. (Compiled with GCC 12's vectorizer of
+// straight-line code, two of the three low parts are 0: see CMakeLists.txt.)
+TEST_CASE("points and lights are split into two floats that hold 48 bits of each coordinate") {
+  Random random(48);
+  std::uint64_t lost = 0;
+  for (int i = 0; i < 1000; ++i) {
+    Scene scene;
+    add_material(scene, {});
+    Light light;
+    light.position = random.in_box(1000);
+    scene.lights.push_back(light);
+    const ShadingTables tables = make_shading_tables(scene);
+    Surface surface;
+    surface.point = random.in_box(1000);
+    const ShadingPoint<float> point = shading_point(tables, surface, {{0, 0, 0}, {0, 0, 1}});
+    const auto check = [&](double high, double low, double whole) {
+      lost += !(std::abs(high + low - tables.length_scale * whole) <= 0x1p-48 * tables.length_scale * std::abs(whole));
+    };
+    check(point.high.x, point.low.x, surface.point.x);
+    check(point.high.y, point.low.y, surface.point.y);
+    check(point.high.z, point.low.z, surface.point.z);
+    const ShadingLight<float>& lamp = tables.lights[0];
+    for (std::size_t k = 0; k < 3; ++k) check(lamp.high[k], lamp.low[k], light.position[static_cast<int>(k)]);
+  }
+  CHECK(lost == 0);
 }
