@@ -3,6 +3,7 @@
 // what is visible once. Object order: the z-buffer never asks what else a ray might meet.
 #include <vector>
 
+#include "common/float_state.h"
 #include "common/parallel.h"
 #include "raster/bins.h"
 #include "raster/prepared.h"
@@ -12,10 +13,12 @@
 namespace sidelight::raster {
 std::shared_ptr<const Prepared> prepare(const Scene& scene, int) { return prepare_for(needs_of(scene), scene); }
 std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene) {
+  const StandardFloatState nearest_and_denormals;
   return std::make_shared<const Prepared>(scene, needs);
 }
 
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
+  const StandardFloatState nearest_and_denormals;
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);
   const TileGrid grid{frame.window, options.tile};
   const int threads = thread_count(options.threads);
@@ -40,6 +43,7 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
 }
 
 RasterRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y) {
+  const StandardFloatState nearest_and_denormals;
   const Scene& scene = prepared.scene;
   const int n = camera.n, x = X / n, y = Y / n;
   const Rect pixel{x, y, x + 1, y + 1};

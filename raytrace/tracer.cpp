@@ -2,6 +2,7 @@
 // The ray tracer: pixel order. For each sample its eye ray, and what the recursion brings back along it.
 #include <vector>
 
+#include "common/float_state.h"
 #include "common/parallel.h"
 #include "common/picture/pixel.h"
 #include "raytrace/whitted.h"
@@ -56,10 +57,12 @@ void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_
 
 std::shared_ptr<const Prepared> prepare(const Scene& scene, int) { return prepare_for(needs_of(scene), scene); }
 std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene) {
+  const StandardFloatState nearest_and_denormals;
   return std::make_shared<const Prepared>(scene, needs);
 }
 
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
+  const StandardFloatState nearest_and_denormals;
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);
   const Media eye_media = media_at(prepared, camera.eye);
   // Statistics by row, so that their sums do not depend on which thread did what.
@@ -79,6 +82,7 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
 }
 
 RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y) {
+  const StandardFloatState nearest_and_denormals;
   RenderStats stats;
   TreeRecorder recorder;
   Whitted whitted(prepared, stats, recorder);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "common/float_state.h"
+
 namespace sidelight {
 namespace {
 
@@ -36,6 +38,7 @@ glm::dvec3 substitute_up(const glm::dvec3& forward) {
 }  // namespace
 
 Camera make_camera(const CameraSettings& settings, int width, int height, int n) {
+  const StandardFloatState nearest_and_denormals;
   const glm::dvec3 forward = unit(settings.look_at - settings.eye);
 
   // Nearer to parallel than this, rounding alone would choose the picture's roll.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/trigonometric.hpp>
 
+#include "common/float_state.h"
 #include "common/scene/build.h"
 #include "common/scene/step_modes.h"
 #include "common/scene/toml_objects.h"
@@ -285,10 +286,12 @@ Scene read_document(const std::string& text, const std::string& path, const Sett
 Scene load_scene(const std::string& path) { return parse_scene(scene_file::read_scene_text(path), path); }
 
 Scene parse_scene(const std::string& text, const std::string& path) {
+  const StandardFloatState nearest_and_denormals;
   return scene_file::read_document(text, path, {});
 }
 
 Scene load_scene_with(const std::string& path, const std::vector<std::pair<std::string, std::string>>& set) {
+  const StandardFloatState nearest_and_denormals;
   return scene_file::read_document(scene_file::read_scene_text(path), path, set);
 }
 

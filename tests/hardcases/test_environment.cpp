@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// What must not change a picture: threads that come and go at any time (DET-1), lanes that hold anything (DET-2), and
+// the state, language and folder of the process (DET-4). Tiles, instruction sets: tests/agreement/test_promises.cpp.
+#include <immintrin.h>
+
+#include <cfenv>
+#include <chrono>
+#include <span>
+#include <thread>
+
+#include "common/model/shading.h"
+#include "tests/hardcases/relations.h"
+#include "tests/hardcases/result.h"
+#include "tests/support/random.h"
+#include "tests/viewer/program.h"
+
+using namespace sidelight;
+using namespace sidelight::test;
+using namespace sidelight::testing;
+
+namespace {
+
+constexpr std::uint64_t kPicture = 7672438773240832223u;  // see "every build makes the same bytes"
+
+}  // namespace
+
+TEST_CASE("DET-1: threads that are held up at random change no bit") {
+  std::uint64_t unlike = 0, pictures = 0;
+  const int runs = tier() == "sanitized" ? 1 : 10;
+  for (const std::string& file : {kEverything, std::string(SIDELIGHT_SOURCE_DIR "/scenes/showcase.toml")}) {
+    const Scene scene = load_scene(file);
+    const Camera camera = make_camera(scene.camera, 40, 30, 1);
+    RenderOptions plain = keeping(kRaytraceLayers);
+    plain.threads = 1;
+    const Frame flat = rastered(scene, camera, plain), deep = traced(scene, camera, plain);
+    for (const int threads : {2, 3, 4, 8, 16})
+      for (int run = 0; run < runs; ++run) {
+        RenderOptions options = plain;
+        options.threads = threads;
+        options.tile = 8;
+        // Called by each worker after each of its items; sleeps for up to 0.3 ms, or not.
+        std::atomic<std::uint64_t> calls{static_cast<std::uint64_t>(1000 * run + threads)};
+        options.progress = [&](double) {
+          const std::uint64_t bits = Random(calls++).bits();
+          if (bits % 4 == 0) std::this_thread::sleep_for(std::chrono::microseconds(bits / 4 % 300));
+        };
+        unlike += !differences(rastered(scene, camera, options), flat).empty();
+        unlike += !differences(traced(scene, camera, options), deep).empty();
+        pictures += 2;
+      }
+  }
+  HardCase("DET-1").none("pictures with another bit, 2 to 16 threads, held up at random", unlike, pictures);
+}
+
+// The lanes beyond a batch's size are computed with the others: whatever they hold, the others do not hear of it.
+TEST_CASE("DET-2: lanes that are not used may hold anything") {
+  const Scene scene = everything();
+  const ShadingTables tables = make_shading_tables(scene);
+  const Camera camera = relation_camera(scene);
+  SignCounts counts;
+  std::vector<std::pair<ShadingPoint<float>, ShadingMaterial>> points;
+  for (int X = 0; points.size() < 40 && X < 67; ++X) {
+    const Ray ray{camera.eye, camera.direction(X, 30)};
+    const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
+    if (!hit.found()) continue;
+    const Surface surface = surface_at(scene, ray, hit, counts);
+    points.emplace_back(shading_point(tables, surface, ray), tables.materials[surface.material]);
+  }
+  REQUIRE(points.size() == 40);
+  std::uint64_t unlike = 0, looked_at = 0;
+  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+    if (!machine_has(isa)) continue;
+    for (const float poison :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+          std::numeric_limits<float>::denorm_min(), -3e38f})
+      for (const int size : {1, 3, 7, 8, 9, 17, 40}) {
+        ShadingBatch clean, poisoned;
+        for (ShadingBatch::Rgb* rgb :
+             {&poisoned.high, &poisoned.low, &poisoned.normal, &poisoned.facing, &poisoned.to_viewer,
+              &poisoned.ambient, &poisoned.diffuse, &poisoned.specular, &poisoned.local})
+          for (auto& channel : *rgb) channel.fill(poison);
+        poisoned.shininess.fill(poison);
+        for (int i = 0; i < size; ++i) {
+          clean.add(points[static_cast<std::size_t>(i)].first, points[static_cast<std::size_t>(i)].second);
+          poisoned.add(points[static_cast<std::size_t>(i)].first, points[static_cast<std::size_t>(i)].second);
+        }
+        shade(isa, tables, clean);
+        shade(isa, tables, poisoned);
+        for (std::size_t c = 0; c < 3; ++c) {
+          ++looked_at;
+          unlike += std::memcmp(clean.unshadowed[c].data(), poisoned.unshadowed[c].data(),
+                                static_cast<std::size_t>(size) * sizeof(float)) != 0;
+        }
+      }
+  }
+  HardCase("DET-2").none("batches changed by what unused lanes hold", unlike, looked_at);
+}
+
+// Debug, release and sanitized builds, with any compiler: all bits of the z-buffer's picture of everything, hashed. The
+// number changes when the arithmetic of visibility or of the local model does, and then on purpose only; the pixels
+// that moved are found with tests/images.
+TEST_CASE("DET-2: every build makes the same bytes") {
+  const Scene scene = everything();
+  const Frame frame = rastered(scene, relation_camera(scene));
+  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
+  const auto add = [&](const auto& array) {
+    for (const auto byte : std::as_bytes(std::span(array)))
+      hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3;
+  };
+  for_each_array(frame, frame,
+                 [&](const std::string&, const auto& array, const auto&, std::size_t) { add(array); });
+  CAPTURE(hash);
+  HardCase("DET-2").holds("the bytes of one picture are those of every other build", hash == kPicture);
+}
+
+// ---- DET-4 ----
+
+namespace {
+
+// A state of the floating-point unit, for as long as it lives.
+struct FloatState {
+  std::fenv_t before;
+  explicit FloatState(int rounding, bool flush) {
+    std::fegetenv(&before);
+    std::fesetround(rounding);
+    if (flush) _mm_setcsr(_mm_getcsr() | 0x8040u);
+  }
+  ~FloatState() { std::fesetenv(&before); }
+};
+
+}  // namespace
+
+TEST_CASE("DET-4: the caller's rounding mode and denormals change no bit, and are given back") {
+  const auto pictures = [] {
+    const Scene scene = everything();
+    const Camera camera = relation_camera(scene);
+    return std::pair(rastered(scene, camera), traced(scene, camera));
+  };
+  const auto [flat, deep] = pictures();
+  std::uint64_t unlike = 0, lost = 0, states = 0;
+  for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST})
+    for (const bool flush : {false, true}) {
+      const FloatState state(rounding, flush);
+      const auto [flat_here, deep_here] = pictures();
+      ++states;
+      unlike += !differences(flat_here, flat).empty() || !differences(deep_here, deep).empty();
+      lost += std::fegetround() != rounding || ((_mm_getcsr() & 0x8040u) == 0x8040u) != flush;
+    }
+  const HardCase hard("DET-4");
+  hard.none("states of the floating-point unit that change a bit", unlike, states);
+  hard.none("states that are not given back", lost, states);
+  const auto [flat_again, deep_again] = pictures();
+  hard.holds("the same pictures a second time",
+             differences(flat_again, flat).empty() && differences(deep_again, deep).empty());
+}
+
+TEST_CASE("DET-4: language, time zone and folder change no byte of a file") {
+  const Workplace here;
+  std::filesystem::create_directories(here / "elsewhere/deep");
+  const auto rendered = [&](const std::string& name, const std::string& shell) {
+    const std::string command =
+        shell + " \"$0\" render \"$1/good.toml\" -r 64x48 -q --layers all -o \"$1/" + name + "\"";
+    CAPTURE(command);
+    const Outcome outcome = here.run_in_shell(command, {here / "."});
+    CHECK(outcome.code == 0);
+    return read_bytes(here / name);
+  };
+  const std::string plain = rendered("plain.exr", "");
+  std::uint64_t unlike = 0, ways = 0;
+  for (const char* way :
+       {"LC_ALL=de_DE.UTF-8", "LC_ALL=C LANG=tr_TR.UTF-8", "LC_ALL=C.UTF-8 TZ=Pacific/Auckland", "TZ=UTC-13",
+        "cd elsewhere/deep;", "umask 077;", "HOME=/nonexistent", ""}) {
+    ++ways;
+    unlike += rendered("other.exr", way) != plain;
+  }
+  HardCase("DET-4").none("environments that change a byte of the EXR", unlike, ways);
+}
