@@ -3,12 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <numbers>
 #include <vector>
 
 #include "common/scene/build.h"
+#include "common/scene/camera.h"
 #include "tests/support/random.h"
 
 namespace sidelight::test {
@@ -84,6 +86,17 @@ inline PolygonMesh star_sphere(std::uint32_t rows, std::uint32_t columns, double
   }
   return mesh_of(positions, faces);
 }
+
+// At the origin, looking along -z: d = view_height ((2X + 1 - W), (H - 1 - 2Y), 0) - 2H z, exactly for a dyadic height.
+inline Camera plain_camera(int width, int height, double view_height = 1) {
+  CameraSettings settings;
+  settings.view_height = view_height;
+  return make_camera(settings, width, height, 1);
+}
+
+// To the nearest multiple of 2^-20, for oracles in integers.
+inline double snapped(double x) { return std::round(x * 0x1p20) * 0x1p-20; }
+inline glm::dvec3 snapped(const glm::dvec3& v) { return {snapped(v.x), snapped(v.y), snapped(v.z)}; }
 
 // |x - cx| + |y - cy| + |z - cz| = size: convex, and exact where center +- size is.
 inline PolygonMesh octahedron(const glm::dvec3& center, double size) {
