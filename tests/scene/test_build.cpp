@@ -11,6 +11,10 @@
 
 #include "common/scene/shapes.h"
 #include "common/scene/unit_vector.h"
+#include "tests/hardcases/result.h"
+#include "tests/support/random.h"
+#include "tests/support/wide.h"
+#include "tests/tier.h"
 
 using namespace sidelight;
 using glm::dmat3;
@@ -176,27 +180,41 @@ TEST_CASE("build: a second mesh has vertices and normals of its own") {
   CHECK(scene.normals[scene.triangles[1].normal[2]] == dvec3(0, 1, 0));
 }
 
+// XFM-1. The normal n goes to n' = C n, C the cofactors of M, each a difference of two products: off by 2 u P, P the sum
+// of their magnitudes. C n adds 3 u, the division by its length 1 u; scalings are by powers of two. So n'_i is off by
+// at most 6 u (P |n|)_i and a little, and n' . M t, whose exact value is 0, by 8 u sum (P |n|)_i |M t|_i with room.
 TEST_CASE("build: normals stay square to transformed tangents") {
-  std::uint64_t state = 5;
-  const auto random = [&] {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<double>(state >> 11) * 0x1p-52 - 1;
-  };
-  for (int i = 0; i < 2000; ++i) {
-    const double stretch = std::exp2(10 * random());
-    const double angle = 3 * random();
+  test::Random random(5);
+  double worst = 0;
+  std::uint64_t other_side = 0, count = 0;
+  for (std::uint64_t left = test::tier_count("rays_per_case"); left > 0; --left, ++count) {
+    const double stretch = random.log_uniform(1e-3, 1e3), angle = random.uniform(-3, 3);
     const dmat3 shear(1, 0.5, 0, 0, 1, 0, 0, 0, 1);
     const dmat3 turn(std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle));
-    const dmat3 m = turn * shear * diagonal(1, i % 2 ? 1 : -1, stretch);
-    const dvec3 n(random(), random(), random());
-    const dvec3 tangent = glm::cross(n, dvec3(random(), random(), random()));
+    const dmat3 m = turn * shear * diagonal(1, count % 2 ? 1 : -1, stretch);
+    const dvec3 n = random.direction();
     PolygonMesh mesh = mesh_of({}, {});
     mesh.normals = {n};
     const dvec3 mapped = built(mesh, {m, dvec3(0)}).normals[0];
-    const dvec3 along = m * tangent;
-    CHECK(std::abs(glm::dot(mapped, along)) <= 8 * 0x1p-23 * glm::length(along));
-    CHECK(glm::dot(mapped, m * n) > 0);  // on the side it was
+    other_side += !(glm::dot(mapped, m * n) > 0);
+
+    using test::quad, test::QuadVec, test::Quad;
+    const QuadVec tangent = cross(quad(n), quad(random.direction()));   // square to n to 113 bits
+    const QuadVec along = tangent.x * quad(m[0]) + tangent.y * quad(m[1]) + tangent.z * quad(m[2]);
+    const auto products = [](const dvec3& a, const dvec3& b) {   // |.||.| + |.||.| of a x b, a column of P
+      return dvec3(std::abs(a.y * b.z) + std::abs(a.z * b.y), std::abs(a.z * b.x) + std::abs(a.x * b.z),
+                   std::abs(a.x * b.y) + std::abs(a.y * b.x));
+    };
+    const dvec3 reach = std::abs(n.x) * products(m[1], m[2]) + std::abs(n.y) * products(m[2], m[0]) +
+                        std::abs(n.z) * products(m[0], m[1]);
+    const dvec3 exact_length = n.x * glm::cross(m[1], m[2]) + n.y * glm::cross(m[2], m[0]) + n.z * glm::cross(m[0], m[1]);
+    const QuadVec across{test::magnitude(along.x), test::magnitude(along.y), test::magnitude(along.z)};
+    const double bound = 8 * 0x1p-53 * static_cast<double>(dot(quad(reach), across)) / glm::length(exact_length);
+    worst = std::max(worst, static_cast<double>(test::magnitude(dot(quad(mapped), along))) / bound);
   }
+  const test::HardCase hard("XFM-1");
+  hard.at_most("n' . M t, stretched by 1e-3 to 1e3 and sheared, in units of its bound", worst, 1);
+  hard.none("normals that change their side", other_side, count);
 }
 
 TEST_CASE("build: singular maps squash normals without a NaN") {
