@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+// Metamorphic relations of space: scenes that are moved, scaled, permuted or cut finer, and the pictures that must not
+// care (MET-1 to 5, 13, 15).
+#include <map>
+#include <numeric>
+
+#include "raytrace/prepared.h"
+#include "tests/hardcases/relations.h"
+#include "tests/hardcases/result.h"
+#include "tests/support/scenes.h"
+
+using namespace sidelight;
+using namespace sidelight::test;
+using namespace sidelight::testing;
+
+namespace {
+
+constexpr double kEps = 0x1p-23;  // colours are float
+
+// A highlight's error by the kernel is (24 s + 24) 2^-24 at most (tests/model/test_phong.cpp), once for each picture,
+// of each light; s = 120 and two lights at most here, and every weight at most 1.
+constexpr double kGlossy = 2 * 2 * (24 * 120 + 24) * 0x1p-24;
+
+// All coordinates multiples of 2^-20.
+Scene on_grid(Scene scene) {
+  for (Sphere& s : scene.spheres) s.radius = snapped(s.radius);
+  return moved(
+      std::move(scene), [](const glm::dvec3& p) { return snapped(p); },
+      [](const glm::dvec3& d) { return d; });
+}
+
+void report(const HardCase& hard, const std::string& what, const Likeness& glossy, const Likeness& dull,
+            double bound) {
+  hard.none(what + ": pixels with another surface", glossy.surfaces + dull.surfaces,
+            glossy.pixels + dull.pixels);
+  hard.at_most(what + ": matte colours, difference in units of eps", dull.color / kEps, bound);
+  hard.at_most(what + ": colours with highlights, in units of 2 lights (24 s + 24) 2^-24 each",
+               glossy.color / kGlossy, 1);
+}
+
+}  // namespace
+
+TEST_CASE("MET-1: a rigid motion of everything leaves the picture as it is") {
+  const HardCase hard("MET-1");
+  const Scene scene = everything(), dull = matte(scene);
+
+  // Quarter turns move no bit of a coordinate, only the order of sums.
+  const auto about_y = [](const glm::dvec3& p) { return glm::dvec3(p.z, p.y, -p.x); };
+  const auto about_x = [](const glm::dvec3& p) { return glm::dvec3(p.x, -p.z, p.y); };
+  const auto upside_down = [](const glm::dvec3& p) { return glm::dvec3(-p.x, -p.y, p.z); };
+  Likeness glossy, flat;
+  const auto quarter = [&](const auto& turn) {
+    const Scene a = turned(scene, turn), b = turned(dull, turn);
+    glossy.add(rastered(scene, relation_camera(scene)), rastered(a, relation_camera(a)));
+    glossy.add(traced(scene, relation_camera(scene)), traced(a, relation_camera(a)));
+    flat.add(rastered(dull, relation_camera(dull)), rastered(b, relation_camera(b)));
+    flat.add(traced(dull, relation_camera(dull)), traced(b, relation_camera(b)));
+  };
+  quarter(about_y);
+  quarter(about_x);
+  quarter(upside_down);
+  report(hard, "quarter turns", glossy, flat, 8);
+
+  // A translation on a grid moves no bit of a difference of coordinates: depths stay, too.
+  const Scene grid = on_grid(scene);
+  const auto far = [](const glm::dvec3& p) { return p + glm::dvec3(1024, -512, 256); };
+  const auto same = [](const glm::dvec3& d) { return d; };
+  const Likeness away = likeness(grid, moved(grid, far, same));
+  report(hard, "a translation on the grid", away, likeness(matte(grid), moved(matte(grid), far, same)), 8);
+  hard.none("a translation on the grid: pixels with another depth", away.depths, away.pixels);
+
+  // Any rotation rounds every coordinate.
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
+  const double c = std::cos(1.1), s = std::sin(1.1);
+  const auto any = [&](const glm::dvec3& p) {
+    return c * p + s * glm::cross(axis, p) + (1 - c) * glm::dot(axis, p) * axis;
+  };
+  const Likeness turned_any = likeness(dull, turned(dull, any));
+  hard.none("any rotation: pixels with another surface", turned_any.surfaces, turned_any.pixels);
+  hard.at_most("any rotation: matte colours", turned_any.color, 1e-5);
+}
+
+TEST_CASE("MET-2: scaling everything by a power of two changes no bit") {
+  const Scene scene = everything();
+  std::uint64_t unlike = 0, depths = 0, pixels = 0, pictures = 0;
+  const Camera camera = relation_camera(scene);
+  const Frame flat = rastered(scene, camera), deep = traced(scene, camera);
+  for (const int k : {-20, -7, 1, 13, 20}) {
+    const double by = std::exp2(k);
+    const auto scaled = [&](const glm::dvec3& p) { return by * p; };
+    Scene other = moved(scene, scaled, [](const glm::dvec3& d) { return d; });
+    for (Sphere& s : other.spheres) s.radius *= by;
+    const auto rescale = [&](Attenuation& q) {
+      q.q1 /= by;
+      q.q2 /= by * by;
+    };
+    for (Light& l : other.lights) rescale(l.attenuation);
+    rescale(other.trace.secondary_attenuation);
+    const Camera far = relation_camera(other);
+    for (auto& [before, after] :
+         {std::pair(&flat, rastered(other, far)), std::pair(&deep, traced(other, far))}) {
+      Frame expected = *before;
+      for (double& t : expected.sample_depth) t *= by;
+      for (float& t : expected.depth) t *= static_cast<float>(by);
+      const std::string what = differences(after, expected);
+      CAPTURE(k);
+      CAPTURE(what);
+      CHECK(what == "");
+      ++pictures;
+      unlike += !what.empty();
+      for (std::size_t i = 0; i < after.pixels(); ++i) {
+        ++pixels;
+        depths += after.sample_depth[i] != expected.sample_depth[i];
+      }
+    }
+  }
+  const HardCase hard("MET-2");
+  hard.none("pictures with any other bit, 2^-20 to 2^20", unlike, pictures);
+  hard.none("depths that do not scale exactly", depths, pixels);
+}
+
+// ---- MET-3 ----
+
+TEST_CASE("MET-3: the order of lights, objects, triangles and vertices") {
+  const HardCase hard("MET-3");
+  Scene scene = everything();
+  // Without the carpet's duplicate: which of two equal surfaces is seen is a matter of order.
+  std::vector<std::size_t> order(scene.objects.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::erase_if(order, [&](std::size_t i) {
+    return scene.materials[primitive_material(scene, scene.objects[i].first_primitive)].name == "same_place";
+  });
+  scene = rebuilt(scene, order, unchanged);
+  order.resize(scene.objects.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+
+  // Sums of light terms, in another order: 1 u each, of the partial sums, once for each picture.
+  Scene swapped = scene;
+  std::reverse(swapped.lights.begin(), swapped.lights.end());
+  const Likeness lights = likeness(scene, swapped);
+  hard.none("lights: pixels with another surface or depth", lights.surfaces + lights.depths,
+            2 * lights.pixels);
+  const double reach = static_cast<double>(2 * scene.lights.size() * scene.trace.depth) * 0x1p-24;
+  hard.at_most("lights: colours, in units of 2 lights 2^-24 for each ray of a path", lights.color / reach, 1);
+
+  // Objects that are no solids in reverse, solids in their places.
+  std::vector<std::size_t> opaque;
+  for (const std::size_t i : order)
+    if (!scene.objects[i].solid) opaque.push_back(i);
+  std::vector<std::size_t> reversed = order;
+  std::size_t last = opaque.size();
+  for (std::size_t& i : reversed)
+    if (!scene.objects[i].solid) i = opaque[--last];
+  const Scene other = rebuilt(scene, reversed, unchanged);
+  std::uint64_t moved_surfaces = 0, pixels = 0;
+  double color = 0;
+  for (const auto& [a, b] :
+       {std::pair(rastered(scene, relation_camera(scene)), rastered(other, relation_camera(other))),
+        std::pair(traced(scene, relation_camera(scene)), traced(other, relation_camera(other)))}) {
+    Likeness each;
+    each.add(a, b);
+    color = std::max(color, each.color);
+    for (std::size_t i = 0; i < a.pixels(); ++i) {
+      ++pixels;
+      const std::uint32_t id = b.object_id[i];
+      moved_surfaces += a.object_id[i] != (id == 0 ? 0 : 1 + static_cast<std::uint32_t>(reversed[id - 1])) ||
+                        a.sample_depth[i] != b.sample_depth[i];
+    }
+  }
+  hard.none("objects: pixels with another surface or depth", moved_surfaces, pixels);
+  hard.at_most("objects: colours, in units of eps", color / kEps, 0);
+
+  // Triangles backwards, corners rotated.
+  const auto change = [](std::vector<Triangle>& triangles, std::vector<glm::dvec3>&) {
+    std::reverse(triangles.begin(), triangles.end());
+    for (Triangle& t : triangles) {
+      std::rotate(t.vertex.begin(), t.vertex.begin() + 1, t.vertex.end());
+      std::rotate(t.normal.begin(), t.normal.begin() + 1, t.normal.end());
+    }
+  };
+  const Scene dull = matte(scene), turned_round = rebuilt(dull, order, change);
+  std::uint64_t other_surface = 0;
+  double matte_color = 0;
+  pixels = 0;
+  for (const auto& [a, b] :
+       {std::pair(rastered(dull, relation_camera(dull)), rastered(turned_round, relation_camera(dull))),
+        std::pair(traced(dull, relation_camera(dull)), traced(turned_round, relation_camera(dull)))}) {
+    Likeness each;
+    each.add(a, b);
+    matte_color = std::max(matte_color, each.color);
+    for (std::size_t i = 0; i < a.pixels(); ++i) {
+      ++pixels;
+      if (a.object_id[i] != b.object_id[i]) {
+        ++other_surface;
+        continue;
+      }
+      if (a.object_id[i] == 0) continue;
+      const Object& object = dull.objects[a.object_id[i] - 1];
+      const std::uint32_t before = a.primitive_id[i] - 1 - object.first_primitive;
+      const std::uint32_t after = b.primitive_id[i] - 1 - object.first_primitive;
+      other_surface += before + after != object.count - 1;
+    }
+  }
+  hard.none("triangles and corners: pixels with another surface", other_surface, pixels);
+  hard.at_most("triangles and corners: matte colours, in units of eps", matte_color / kEps, 4);
+}
+
+// ---- MET-4: midpoints of dyadic vertices are exact, so the four cover exactly what the one did ----
+
+TEST_CASE("MET-4: a triangle cut into four at the middles of its edges") {
+  Random random(4);
+  std::uint64_t unlike = 0, pixels = 0, hits = 0;
+  double ulps = 0, color = 0;
+  SignCounts counts;
+  for (std::uint64_t left = 1 + tier_count("rays_per_case") / 25'000; left > 0; --left) {
+    Scene scene = empty_scene();
+    PolygonMesh ball = star_sphere(10, 12, 0.5, left);
+    for (glm::dvec3& p : ball.positions) p = snapped(p);
+    add_mesh(scene, ball, {}, {});
+    Light light;
+    light.position = {3, 4, 5};
+    light.intensity = glm::dvec3(1);
+    scene.lights = {light};
+    scene.camera.eye = snapped(4.0 * random.direction());
+    scene.camera.look_at = {0, 0, 0};
+    scene.camera.up = random.direction();
+
+    const auto four = [](std::vector<Triangle>& triangles, std::vector<glm::dvec3>& positions) {
+      std::vector<Triangle> cut;
+      std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+      const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [at, is_new] =
+            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(positions.size()));
+        if (is_new) positions.push_back(0.5 * (positions[a] + positions[b]));
+        return at->second;
+      };
+      for (const Triangle& t : triangles) {
+        const auto [a, b, c] = t.vertex;
+        const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        for (const std::array<std::uint32_t, 3>& v :
+             {std::array{a, ab, ca}, std::array{ab, b, bc}, std::array{ca, bc, c}, std::array{ab, bc, ca}}) {
+          cut.push_back(t);
+          cut.back().vertex = v;
+        }
+      }
+      triangles = cut;
+    };
+    const Scene fine = rebuilt(scene, {0}, four);
+    const Camera camera = relation_camera(scene);
+    for (const auto& [a, b] : {std::pair(rastered(scene, camera), rastered(fine, camera)),
+                               std::pair(traced(scene, camera), traced(fine, camera))})
+      for (std::size_t i = 0; i < a.pixels(); ++i) {
+        ++pixels;
+        unlike += a.primitive_id[i] == 0
+                      ? b.primitive_id[i] != 0
+                      : b.primitive_id[i] == 0 || (b.primitive_id[i] - 1) / 4 != a.primitive_id[i] - 1;
+        if (a.primitive_id[i] == 0 || b.primitive_id[i] == 0) continue;
+        ++hits;
+        const double t = a.sample_depth[i];
+        ulps = std::max(ulps, std::abs(t - b.sample_depth[i]) / (std::nextafter(t, INFINITY) - t));
+        for (int c = 0; c < 3; ++c)
+          color = std::max(color, std::abs(double{a.color[i][c]} - double{b.color[i][c]}));
+      }
+  }
+  REQUIRE(hits > 100);
+  const HardCase hard("MET-4");
+  hard.none("pixels that show another triangle than the one cut, or none", unlike, pixels);
+  hard.at_most("difference of depths in ulp", ulps, 16);
+  hard.at_most("difference of flat colours", color, 1e-6);
+}
+
+// ---- MET-5 ----
+
+TEST_CASE("MET-5: the centre samples of a picture of odd multiples are the picture") {
+  const HardCase hard("MET-5");
+  const Scene scene = everything();
+  const int width = 67, height = 49;
+  const Camera camera = make_camera(scene.camera, width, height, 1);
+  const Frame frames[2]{rastered(scene, camera), traced(scene, camera)};
+  std::uint64_t unlike = 0, pixels = 0, nowhere = 0, looked_up = 0;
+  for (const int times : {3, 5}) {
+    const Camera larger = make_camera(scene.camera, times * width, times * height, 1);
+    const Frame large[2]{rastered(scene, larger), traced(scene, larger)};
+    for (int which = 0; which < 2; ++which)
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          const std::size_t i = large[which].index(times * x + times / 2, times * y + times / 2);
+          ++pixels;
+          unlike += large[which].primitive_id[i] != frames[which].primitive_id[frames[which].index(x, y)];
+        }
+  }
+  hard.none("pixels whose surface is not that of the centre sample, 3 and 5 times as large", unlike, pixels);
+
+  // Twice and four times as large, centres do not coincide: the surface is seen in the block or the eight around it.
+  for (const int times : {2, 4}) {
+    const Camera larger = make_camera(scene.camera, times * width, times * height, 1);
+    const Frame large = rastered(scene, larger);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        bool found = false;
+        const std::uint32_t id = frames[0].object_id[frames[0].index(x, y)];
+        for (int Y = std::max(0, times * (y - 1)); Y < std::min(times * height, times * (y + 2)); ++Y)
+          for (int X = std::max(0, times * (x - 1)); X < std::min(times * width, times * (x + 2)); ++X)
+            found = found || large.object_id[large.index(X, Y)] == id;
+        ++looked_up;
+        nowhere += !found;
+      }
+  }
+  hard.at_most("share of pixels whose object is not seen around them, 2 and 4 times as large",
+               static_cast<double>(nowhere) / static_cast<double>(looked_up), 1e-4);
+}
+
+// ---- MET-13 ----
+
+TEST_CASE("MET-13: a shadow ray from A to B is blocked iff that from B to A is") {
+  Scene scene = empty_scene();
+  Transform aside;
+  aside.translate = {1.5, 0.25, 0};
+  add_mesh(scene, star_sphere(12, 16, 0.4, 17), aside, {});
+  add_sphere(scene, {{-1.25, 0.5, 0.3}, 0.7, 0}, {});
+  add_plane(scene, {{0, -1, 0}, {0.1, 1, 0.05}, 0}, {});
+  const raytrace::Prepared prepared(scene);
+  Random random(13);
+  SignCounts counts;
+  std::uint64_t disagreeing = 0, pairs = 0, blocked = 0;
+  for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
+    const glm::dvec3 a = random.in_box(3), b = random.in_box(3);
+    const bool there = raytrace::blocker(prepared, make_ray(a, b - a), &b, counts).found();
+    const bool back = raytrace::blocker(prepared, make_ray(b, a - b), &a, counts).found();
+    ++pairs;
+    blocked += there;
+    disagreeing += there != back;
+  }
+  const HardCase hard("MET-13");
+  hard.none("pairs of points that see each other one way only", disagreeing, pairs);
+  hard.at_least("share of pairs that something separates",
+                static_cast<double>(blocked) / static_cast<double>(pairs), 0.2);
+}
+
+// ---- MET-15 ----
+
+TEST_CASE("MET-15: permuting the axes changes no surface") {
+  const auto yzx = [](const glm::dvec3& p) { return glm::dvec3(p.y, p.z, p.x); };
+  const auto zxy = [](const glm::dvec3& p) { return glm::dvec3(p.z, p.x, p.y); };
+  Likeness glossy, dull;
+  for (const Scene& scene : {everything(), matte(everything())}) {
+    Likeness& to = scene.materials[0].specular.x > 0 ? glossy : dull;
+    for (const Scene& other : {turned(scene, yzx), turned(scene, zxy)}) {
+      to.add(rastered(scene, relation_camera(scene)), rastered(other, relation_camera(other)));
+      to.add(traced(scene, relation_camera(scene)), traced(other, relation_camera(other)));
+    }
+  }
+  report(HardCase("MET-15"), "axes permuted", glossy, dull, 8);
+}
