@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/scene/camera.h"
+#include "raster/raster.h"
+#include "raytrace/raytrace.h"
+#include "tests/hardcases/result.h"
 #include "tests/scene/temp_folder.h"
 #include "tests/scene/toml_text.h"
 
@@ -113,7 +117,10 @@ TEST_CASE("toml errors: missing keys, at the table that lacks them") {
       "", "");
 }
 
+// INP-1: and those at the edge of nothing, which are 0 or as good as it, are read or refused where they stand, but make
+// no picture with a hole in it.
 TEST_CASE("toml errors: numbers that are not finite, in every field") {
+  std::uint64_t fields = 0, not_refused = 0, misplaced = 0, faulty = 0, pixels = 0;
   struct Field {
     std::string before, after;
   };
@@ -167,8 +174,41 @@ TEST_CASE("toml errors: numbers that are not finite, in every field") {
       const auto line = std::count(field.before.begin(), field.before.end(), '\n') + 1;
       const auto column = line_text.size() + (value == "1e400" ? 6 : 1);
       CHECK(error.find("scene.toml:" + std::to_string(line) + ":" + std::to_string(column) + ": ") == 0);
+      ++fields;
+      not_refused += error == "no error";
+    }
+    for (const std::string value : {"-0.0", "1e-45", "-1e-45", "5e-324", "3.5e38"}) {
+      const std::string text = field.before + value + field.after + kCamera + kMaterial;
+      const std::string error = error_of(text);
+      const auto line = std::count(field.before.begin(), field.before.end(), '\n') + 1;
+      ++fields;
+      if (error != "no error") {
+        misplaced += error.find("scene.toml:" + std::to_string(line) + ":") != 0 &&
+                     error.find("scene.toml:1:1:") != 0;   // an object as a whole
+        continue;
+      }
+      const Scene scene = parse_scene(text, "scene.toml");
+      const Camera camera = make_camera(scene.camera, 8, 6, 1);
+      for (const Frame& frame : {raster::render(*raster::prepare(scene), camera, {}),
+                                 raytrace::render(*raytrace::prepare(scene), camera, {})}) {
+        pixels += frame.pixels();
+        faulty += !first_non_finite(frame).empty();
+      }
     }
   }
+  for (const std::string value : {"nan", "inf", "-inf", "1e400"})
+    for (const std::string& camera :
+         {"eye = [0, 0, " + value + "]\nlook_at = [0, 0, 0]\nview_height = 1", "eye = [0, 0, 1]\nlook_at = [0, " + value + ", 0]\nview_height = 1",
+          "eye = [0, 0, 1]\nlook_at = [0, 0, 0]\nview_height = " + value,
+          "eye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = " + value,
+          "eye = [0, 0, 1]\nlook_at = [0, 0, 0]\nview_height = 1\nup = [" + value + ", 1, 0]"}) {
+      ++fields;
+      not_refused += error_of("[camera]\n" + camera) == "no error";
+    }
+  const test::HardCase hard("INP-1");
+  hard.none("numbers that are not finite and yet accepted", not_refused, fields);
+  hard.none("numbers next to nothing or beyond float that are refused elsewhere", misplaced, fields);
+  hard.none("pictures with a value that is not finite, of those accepted", faulty, pixels);
 }
 
 TEST_CASE("toml errors: the camera") {
