@@ -58,15 +58,17 @@ CameraSettings any_way() {
 }  // namespace
 
 TEST_CASE("RVR-2: both renderers show what 128-bit integers find") {
-  std::uint64_t samples = 0, covered = 0, exactly_on_edges = 0, z_buffer = 0, tracer = 0;
+  std::uint64_t samples = 0, covered = 0, exactly_on_edges = 0, z_buffer = 0, tracer = 0, depths = 0;
   const Scene scene = local_only(spheres_on_ground(tier_count("exact_picture_triangles")));
   for (const std::string& text : tier_list("exact_picture_sizes"))
     for (const CameraSettings& settings : {straight_ahead(), any_way()}) {
       const PictureSize size = parse_size(text);
       const Camera camera = make_camera(settings, size.width, size.height, 1);
       const ExactPicture exact(scene, camera);
-      z_buffer += exact.mismatches(rastered(scene, camera));
-      tracer += exact.mismatches(traced(scene, camera));
+      const Frame flat = rastered(scene, camera), deep = traced(scene, camera);
+      z_buffer += exact.mismatches(flat);
+      tracer += exact.mismatches(deep);
+      depths += exact.wrong_depths(flat) + exact.wrong_depths(deep);
       for (int Y = 0; Y < camera.rows(); ++Y)
         for (int X = 0; X < camera.columns(); ++X) {
           ++samples;
@@ -77,7 +79,45 @@ TEST_CASE("RVR-2: both renderers show what 128-bit integers find") {
   const HardCase hard("RVR-2");
   hard.none("samples where the z-buffer shows another surface than 128-bit integers", z_buffer, samples);
   hard.none("samples where the tracer shows another surface than 128-bit integers", tracer, samples);
+  hard.none("depths of both beyond the bound of their condition number", depths, 2 * samples);
   hard.at_least("share of samples that meet a triangle",
                 static_cast<double>(covered) / static_cast<double>(samples), 0.5);
   hard.at_least("rays exactly through an edge or a vertex", static_cast<double>(exactly_on_edges), 1);
+}
+
+// One edge of each triangle runs exactly through a sample's ray, or 2^-20 beside it: its ends are s d + t w and
+// s' d - t' w for that ray's d and any w. Their products have some 70 bits, so double alone sees a sign of rounding.
+TEST_CASE("RVR-2: edges exactly through rays and 2^-20 beside them") {
+  const Camera camera = plain_camera(64, 48);
+  Random random(202);
+  std::uint64_t samples = 0, z_buffer = 0, tracer = 0, exactly_on_edges = 0;
+  const auto dyadic = [&](double low, double high) {
+    return std::round(random.uniform(low, high) * 1024) / 1024;
+  };
+  for (std::uint64_t left = 2 + tier_count("rays_per_case") / 20'000; left > 0; --left) {
+    std::vector<glm::dvec3> positions;
+    std::vector<Face> faces;
+    for (std::uint32_t i = 0; i < 200; ++i) {
+      const glm::dvec3 d =
+          camera.direction(static_cast<int>(random.below(64)), static_cast<int>(random.below(48)));
+      const glm::dvec3 w = 0x1p-10 * random.on_grid(1 << 17), c = 0x1p-10 * random.on_grid(1 << 17);
+      glm::dvec3 a = dyadic(1, 40) * d + dyadic(0.1, 9) * w, b = dyadic(1, 40) * d - dyadic(0.1, 9) * w;
+      a[static_cast<int>(random.below(3))] += 0x1p-20 * static_cast<double>(random.integer(1));
+      positions.insert(positions.end(), {a, b, dyadic(1, 40) * d + c});
+      faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const Scene scene = local_only(scene_of(mesh_of(positions, faces)));
+    const ExactPicture exact(scene, camera);
+    z_buffer += exact.mismatches(rastered(scene, camera));
+    tracer += exact.mismatches(traced(scene, camera));
+    for (int Y = 0; Y < camera.rows(); ++Y)
+      for (int X = 0; X < camera.columns(); ++X) {
+        ++samples;
+        exactly_on_edges += exact.at(X, Y).met > exact.at(X, Y).strictly;
+      }
+  }
+  const HardCase hard("RVR-2");
+  hard.none("edges through rays: samples where the z-buffer shows another surface", z_buffer, samples);
+  hard.none("edges through rays: samples where the tracer shows another surface", tracer, samples);
+  hard.at_least("edges through rays: those that are met exactly", static_cast<double>(exactly_on_edges), 10);
 }

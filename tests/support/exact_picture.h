@@ -67,6 +67,20 @@ class ExactPicture {
     return bad;
   }
 
+  // How many samples of such a frame that show what they may have a depth that is off by more than the bound above.
+  std::uint64_t wrong_depths(const Frame& frame) const {
+    std::uint64_t bad = 0;
+    std::size_t i = 0;
+    for_each_sample(frame, [&](int X, int Y, std::uint32_t shown) {
+      const double t = frame.sample_depth[i++];
+      if (shown == kNone || !allows(X, Y, shown)) return;
+      const Meeting meeting = meet(see(shown), direction(X, Y));
+      const Quad exact = meeting.depth * static_cast<Quad>(scale_d_) / static_cast<Quad>(scale_a_);
+      bad += !(magnitude(static_cast<Quad>(t) - exact) <= static_cast<Quad>(meeting.tie) * exact);
+    });
+    return bad;
+  }
+
   // Calls visit(X, Y, primitive or kNone) for every sample of a whole frame.
   template <class Visit>
   static void for_each_sample(const Frame& frame, const Visit& visit) {
