@@ -17,6 +17,7 @@
 
 #include "common/math/isa.h"
 #include "common/parallel.h"
+#include "tests/hardcases/result.h"
 #include "tests/tier.h"
 
 #if defined(__FAST_MATH__) || __FINITE_MATH_ONLY__ || defined(__RECIPROCAL_MATH__) || \
@@ -45,7 +46,7 @@ struct WithFma {
 
 // With rounded products a·b - fl(a·b) is 0 and E(a,b) = -E(b,a); a fused form leaves a product's rounding error.
 template <class T, class Compiled>
-void check_products() {
+void check_products(const std::string& what) {
   std::mt19937 random(1);
   std::uniform_real_distribution<T> uniform(-1, 1);
   int residues = 0, asymmetries = 0;
@@ -57,8 +58,9 @@ void check_products() {
     asymmetries += Compiled::edge(a, b, c, d) != -Compiled::edge(c, d, a, b);
     telling += std::fma(a, b, -product) != 0;
   }
-  CHECK(residues == 0);
-  CHECK(asymmetries == 0);
+  const sidelight::test::HardCase flags("TRI-3");
+  flags.none("contracted products, " + what, static_cast<std::uint64_t>(residues), kPairs);
+  flags.none("edges that are not antisymmetric, " + what, static_cast<std::uint64_t>(asymmetries), kPairs);
   CHECK(telling > kPairs * 9 / 10);
 }
 
@@ -69,14 +71,14 @@ bool flushes_denormals() { return (_mm_getcsr() & 0x8040u) != 0; }
 
 TEST_SUITE("math") {
   TEST_CASE("flags: products are not contracted") {
-    check_products<float, Plain<float>>();
-    check_products<double, Plain<double>>();
+    check_products<float, Plain<float>>("float");
+    check_products<double, Plain<double>>("double");
   }
 
   TEST_CASE("flags: products are not contracted where the machine could") {
     if (!sidelight::machine_has(sidelight::Isa::avx2)) return sidelight::test::skip_test("no FMA");
-    check_products<float, WithFma<float>>();
-    check_products<double, WithFma<double>>();
+    check_products<float, WithFma<float>>("float, where the machine could");
+    check_products<double, WithFma<double>>("double, where the machine could");
   }
 
   TEST_CASE("flags: rounding to nearest, denormals kept, on every thread") {

@@ -9,6 +9,7 @@
 #include "common/model/visibility.h"
 #include "common/scene/shapes.h"
 #include "raytrace/prepared.h"
+#include "tests/hardcases/result.h"
 #include "tests/support/approx.h"
 #include "tests/support/scenes.h"
 #include "tests/support/wide.h"
@@ -39,7 +40,7 @@ bool may_meet(const Scene& scene, std::uint32_t triangle, const Ray& ray, double
 
 // Rays from around the origin through `target(scene, random)`; through the hierarchy, as a renderer asks.
 struct Leaks {
-  std::uint64_t leaked = 0, phantom = 0;
+  std::uint64_t rays = 0, leaked = 0, phantom = 0;
 };
 template <class Target>
 Leaks shoot_from_inside(const Target& target) {
@@ -54,10 +55,18 @@ Leaks shoot_from_inside(const Target& target) {
     const glm::dvec3 origin = 0.5 * std::cbrt(random.uniform()) * random.direction();
     const Ray ray = make_ray(origin, target(scene, random) - origin);
     const Hit hit = raytrace::nearest(prepared, ray, kRayStart, counts);
+    ++leaks.rays;
     leaks.leaked += !hit.found();
     leaks.phantom += hit.found() && !may_meet(scene, hit.primitive, ray, 8);
   }
   return leaks;
+}
+
+// A leak may be bought with a tolerance, and then something is hit that exact arithmetic says is missed: both count.
+void report(const Leaks& leaks, const std::string& aimed) {
+  const HardCase leak("TRI-1");
+  leak.none("rays " + aimed + " that leak", leaks.leaked, leaks.rays);
+  leak.none("triangles that rays " + aimed + " hit and exact arithmetic does not", leaks.phantom, leaks.rays);
 }
 
 Hit first_hit(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction,
@@ -72,8 +81,7 @@ Hit first_hit(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& di
 TEST_CASE("rays from inside a closed mesh never leak, in any direction") {
   const Leaks leaks =
       shoot_from_inside([](const Scene&, Random& random) { return 10.0 * random.direction(); });
-  CHECK(leaks.leaked == 0);
-  CHECK(leaks.phantom == 0);
+  report(leaks, "in any direction");
 }
 
 TEST_CASE("rays aimed at the edges of a closed mesh never leak") {
@@ -83,16 +91,14 @@ TEST_CASE("rays aimed at the edges of a closed mesh never leak") {
     const glm::dvec3 a = scene.positions[v[k]], b = scene.positions[v[(k + 1) % 3]];
     return a + random.uniform() * (b - a);
   });
-  CHECK(leaks.leaked == 0);
-  CHECK(leaks.phantom == 0);
+  report(leaks, "at edges");
 }
 
 TEST_CASE("rays aimed at the vertices of a closed mesh never leak") {
   const Leaks leaks = shoot_from_inside([](const Scene& scene, Random& random) {
     return scene.positions[random.below(static_cast<std::uint32_t>(scene.positions.size()))];
   });
-  CHECK(leaks.leaked == 0);
-  CHECK(leaks.phantom == 0);
+  report(leaks, "at vertices");
 }
 
 TEST_CASE("on integers a triangle is hit exactly where 128-bit arithmetic says so") {
@@ -119,7 +125,8 @@ TEST_CASE("on integers a triangle is hit exactly where 128-bit arithmetic says s
     hits += expected;
     on_edge += expected && touched > 0;
   }
-  CHECK(wrong == 0);
+  HardCase("TRI-1").none("rays decided unlike 128-bit integers, half of them through an edge", wrong,
+                         tier_count("rays_per_case"));
   CHECK(hits > 0);
   CHECK(on_edge > 0);
 }
@@ -132,7 +139,7 @@ TEST_CASE("neighbours see the sign of a common edge alike, in every bit") {
     const TriangleView here = view_triangle(o, p, q, r), there = view_triangle(o, q, p, random.in_box(1));
     unlike += here.edge[2] != -there.edge[2] || here.weight[2] != there.weight[2];
   }
-  CHECK(unlike == 0);
+  HardCase("TRI-3").none("common edges that neighbours see unlike in any bit", unlike, tier_count("rays_per_case"));
 }
 
 // A flip (v1 and v2 change places) negates the normal and every sign exactly. A rotation takes the depth from
@@ -187,8 +194,9 @@ TEST_CASE("collinear triples of integers are flagged, and missed even without th
         a + random.uniform() * (b - a);  // on the line to rounding: the signs must refuse
     hits += first_hit(scene, origin, target - origin).found() + first_hit(scene, origin, b - origin).found();
   }
-  CHECK(hits == 0);
-  CHECK(unflagged == 0);
+  const HardCase degenerate("TRI-4");
+  degenerate.none("hits of collinear triples without their flag", hits, 2 * some);
+  degenerate.none("collinear triples that are not flagged", unflagged, some);
 }
 
 // TRI-6
@@ -208,33 +216,38 @@ TEST_CASE("a ray in the plane of a triangle misses it") {
     };
     hits += first_hit(scene, v0 + in_plane(), in_plane()).found();
   }
-  CHECK(hits == 0);
+  HardCase("TRI-6").none("hits of rays in a triangle's plane", hits, tier_count("rays_per_case"));
 }
 
 TEST_CASE("a ray within a face of a cube or along its edge enters through the neighbours") {
-  const Scene cube = scene_of(make_box({1, 1, 1}));             // from -1/2 to 1/2
-  CHECK(first_hit(cube, {-2.5, 0.25, 0.5}, {1, 0, 0}).t == 2);  // in the face z = 1/2, through x = -1/2
-  CHECK(first_hit(cube, {-2.5, 0.5, 0.5}, {1, 0, 0}).t == 2);   // along an edge
-  CHECK(first_hit(cube, {-2.5, 0.5, 0.5}, {1, 0, 0}, {2, kNone}).t == 3);
-  CHECK(first_hit(cube, {-1.5, 0.25, -0.5}, {1, 0, 1}).t ==
-        1);  // to the edge x = -1/2, z = 1/2, and on out of the face
+  const Scene cube = scene_of(make_box({1, 1, 1}));   // from -1/2 to 1/2
+  const HardCase graze("TRI-6");
+  graze.holds("a ray in a face of a cube enters and leaves through the neighbours, exactly",
+              first_hit(cube, {-2.5, 0.25, 0.5}, {1, 0, 0}).t == 2 &&
+                  first_hit(cube, {-2.5, 0.25, 0.5}, {1, 0, 0}, {2, kNone}).t == 3);
+  graze.holds("a ray along an edge of a cube does so too, exactly", first_hit(cube, {-2.5, 0.5, 0.5}, {1, 0, 0}).t == 2 &&
+                                                 first_hit(cube, {-2.5, 0.5, 0.5}, {1, 0, 0}, {2, kNone}).t == 3);
+  // To the edge x = -1/2, z = 1/2, and on out of the face.
+  graze.holds("a ray that touches an edge of a cube hits it", first_hit(cube, {-1.5, 0.25, -0.5}, {1, 0, 1}).t == 1);
   CHECK_FALSE(first_hit(cube, {-2.5, 0.75, 0.5}, {1, 0, 0}).found());
 }
 
 // TRI-10: hits lie in the open interval after the ray's start.
 TEST_CASE("a ray that starts on a triangle does not hit it") {
   Random random(7);
-  std::uint64_t hits = 0;
+  std::uint64_t hits = 0, rays = 0;
   Scene scene = scene_of_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
     const glm::dvec3 v0 = random.on_grid(1 << 16), e1 = 4.0 * random.on_grid(1 << 16),
                      e2 = 4.0 * random.on_grid(1 << 16);
     scene.positions = {v0, v0 + e1, v0 + e2};
     const glm::dvec3 inside = v0 + 0.25 * e1 + 0.5 * e2, normal = glm::cross(e1, e2);
-    for (const glm::dvec3& d : {normal, -normal, random.direction(), e1, e1 + 1e-9 * normal})
+    for (const glm::dvec3& d : {normal, -normal, random.direction(), e1, e1 + 1e-9 * normal}) {
       hits += d != glm::dvec3(0) && first_hit(scene, inside, d).found();
+      ++rays;
+    }
   }
-  CHECK(hits == 0);
+  HardCase("TRI-10").none("hits of the triangle that a ray starts on", hits, rays);
 }
 
 TEST_CASE("hits come one after another, by depth and then by number") {

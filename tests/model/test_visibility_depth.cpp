@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/model/visibility.h"
+#include "tests/hardcases/result.h"
 #include "tests/support/scenes.h"
 #include "tests/support/wide.h"
 #include "tests/tier.h"
@@ -33,8 +34,13 @@ double relative_bound(const TriangleView& view, const DepthPlane& plane, const g
 // a0, a1, a2 are integers and d = i a0 + j a1 + k a2 with i, j, k >= 0, not all 0: the ray meets the triangle
 // at exactly t = 1 / (i + j + k), unless the origin lies in its plane.
 struct Tally {
-  std::uint64_t wrong = 0, missed = 0, rounded_once = 0;
+  std::uint64_t rays = 0, wrong = 0, missed = 0, rounded_once = 0;
 };
+void report(const Tally& tally, const std::string& of) {
+  const HardCase accuracy("TRI-7");
+  accuracy.none("hits of " + of + " that exact arithmetic does not find, or misses", tally.missed, tally.rays);
+  accuracy.none("depths of " + of + " beyond their bound", tally.wrong, tally.rays);
+}
 void check_integer_triangle(const std::array<glm::dvec3, 3>& v, const glm::dvec3& origin, Random& random,
                             Tally& tally) {
   const auto& [v0, v1, v2] = v;
@@ -43,6 +49,7 @@ void check_integer_triangle(const std::array<glm::dvec3, 3>& v, const glm::dvec3
   const double i = random.below(9), j = random.below(9), k = 1 + random.below(8);
   const glm::dvec3 d = i * view.a[0] + j * view.a[1] + k * view.a[2];
   SignCounts counts;
+  ++tally.rays;
   const Hit hit = intersect(scene, 0, {origin, d}, kRayStart, counts);
   const bool in_plane = determinant(integers(view.a[0]), integers(view.a[1]), integers(view.a[2])) == 0;
   tally.missed += hit.found() == in_plane;
@@ -70,8 +77,7 @@ TEST_CASE("the depth of a sliver is within its bound") {
     const std::array v{a, b, on_line + random.on_grid(1ll << random.below(20))};
     check_integer_triangle(v, random.on_grid(1 << 30), random, tally);
   }
-  CHECK(tally.wrong == 0);
-  CHECK(tally.missed == 0);
+  report(tally, "slivers");
 }
 
 TEST_CASE(
@@ -85,8 +91,7 @@ TEST_CASE(
         v0 + static_cast<double>(random.integer(3)) * e1 + static_cast<double>(random.integer(3)) * e2;
     check_integer_triangle({v0, v0 + e1, v0 + e2}, in_plane + random.on_grid(1), random, tally);
   }
-  CHECK(tally.wrong == 0);
-  CHECK(tally.missed == 0);
+  report(tally, "triangles seen nearly edge-on");
   CHECK(tally.rounded_once > 0);
 }
 
@@ -112,8 +117,7 @@ TEST_CASE("the depth of any triangle is within its bound of the quotient in 113 
     wrong += !(hit.t > 0 && magnitude(hit.t - exact) <= bound * exact);
     ++hits;
   }
-  CHECK(wrong == 0);
-  CHECK(hits > 0);
+  HardCase("TRI-7").none("depths of any triangle beyond their bound", wrong, hits);
 }
 
 // TRI-9, MET-2: scaling by powers of two is exact, so nothing may change, not even where positions reach
@@ -134,6 +138,5 @@ TEST_CASE("scaling a triangle and its ray by a power of two changes no bit") {
     hits += hit.found();
     for (const int k : {-90, -30, -7, 1, 13, 30, 48}) changed += at_scale(std::exp2(k)) != hit;
   }
-  CHECK(changed == 0);
-  CHECK(hits > 0);
+  HardCase("TRI-9").none("hits of one triangle that change with its scale, 2^-90 to 2^48", changed, 7 * hits);
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "raytrace/prepared.h"
+#include "tests/hardcases/result.h"
 #include "tests/support/scenes.h"
 #include "tests/tier.h"
 
@@ -16,12 +17,12 @@ using raytrace::Prepared;
 namespace {
 
 // BVH-5: coordinates on a grid of 2^-6, so that exact ties are common; 5 % of the triangles twice.
-Scene scene_on_grid(Random& random) {
+Scene scene_on_grid(Random& random, std::uint32_t most_triangles = 400) {
   const auto point = [&] { return 0x1p-6 * random.on_grid(64); };
   Scene scene = empty_scene();
   std::vector<glm::dvec3> positions;
   std::vector<Face> faces;
-  const std::uint32_t triangles = 1 + random.below(400);
+  const std::uint32_t triangles = 1 + random.below(most_triangles);
   for (std::uint32_t i = 0; i < triangles; ++i) {
     const auto first = static_cast<std::uint32_t>(positions.size());
     const glm::dvec3 at = point();
@@ -75,17 +76,16 @@ TEST_CASE("the sign of a zero in a direction changes no hit") {
         differing += nearest(prepared, {origin, minus}, kRayStart, counts) != hit;
         hits += hit.found();
       }
-  CHECK(differing == 0);
-  CHECK(hits > 0);
+  HardCase("BVH-2").none("hits of 65x65 axis-aligned rays a side that a -0 changes", differing, hits);
 }
 
 // BVH-5
 TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and blocker agrees with it") {
   Random random(5);
   std::uint64_t differing = 0, wrong_blocker = 0, ties = 0;
-  const std::uint64_t scenes = 40, rays = 1 + tier_count("rays_per_case") / (10 * scenes);
+  const std::uint64_t scenes = 200, rays = 1 + tier_count("rays_per_case") / (10 * scenes);
   for (std::uint64_t i = 0; i < scenes; ++i) {
-    const Scene scene = scene_on_grid(random);
+    const Scene scene = scene_on_grid(random, i % 10 == 0 ? 2000 : 200);
     const Prepared prepared(scene);
     SignCounts counts;
     for (std::uint64_t left = rays; left > 0; --left) {
@@ -108,8 +108,10 @@ TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and 
       wrong_blocker += in_the_light.found() != before || !is_hit_of(scene, ray, in_the_light);
     }
   }
-  CHECK(differing == 0);
-  CHECK(wrong_blocker == 0);
+  const HardCase brute_force("BVH-5");
+  brute_force.none("nearest hits unlike brute force in any bit", differing, scenes * rays);
+  brute_force.none("blockers unlike brute force", wrong_blocker, 2 * scenes * rays);
+  HardCase("TRI-10").none("rays where a blocker and the nearest hit disagree", wrong_blocker, 2 * scenes * rays);
   CHECK(ties > 0);
 }
 
