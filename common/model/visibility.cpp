@@ -142,7 +142,12 @@ std::array<double, 3> edge_values(const TriangleView& view, const glm::dvec3& di
     bound += glm::dot(absolute(direction), view.weight[k]);
   }
   const double sum = e[0] + e[1] + e[2];
-  if (kDotCrossBound * bound <= 0x1p-20 * std::abs(sum)) return e;
+  if (kDotCrossBound * bound <= 0x1p-20 * std::abs(sum)) {
+    // The exact values of a hit share one sign: one that rounding gave the other is as good as 0, and on an edge.
+    for (double& each : e)
+      if ((each < 0) != (sum < 0)) each = 0;
+    return e;
+  }
   for (int k = 0; k < 3; ++k)
     e[static_cast<std::size_t>(k)] =
         exact::rounded(exact::determinant(direction, next(view.a, k), after_next(view.a, k)));

@@ -101,7 +101,7 @@ struct Place {
   glm::dvec3 point{0};
   glm::dvec3 outward{0};           // Ng: unit geometric normal, outward
   bool entering = false;           // the ray comes from the outward side (decided exactly)
-  std::array<double, 3> barycentric{};   // triangles: weights of the three vertices, >= 0 up to rounding, sum 1
+  std::array<double, 3> barycentric{};   // triangles: weights of the three vertices: >= 0, sum 1 to rounding
   double clearance = 0;            // rays that leave start at point +- clearance * outward: beyond all rounding
   double together = 0;             // surfaces of depth <= together count as crossed with this one
 };
