@@ -58,6 +58,21 @@ inline Scene scene_of_triangle(const glm::dvec3& v0, const glm::dvec3& v1, const
   return scene_of(mesh_of({v0, v1, v2}, {{0, 1, 2}}));
 }
 
+inline Light lamp(const glm::dvec3& position, double intensity) {
+  Light light;
+  light.position = position;
+  light.intensity = glm::dvec3(intensity);
+  return light;
+}
+// `to_light` is unit.
+inline Light sun(const glm::dvec3& to_light, double intensity) {
+  Light light;
+  light.directional = true;
+  light.direction = -to_light;
+  light.intensity = glm::dvec3(intensity);
+  return light;
+}
+
 // S(rows, columns, amplitude, seed) of HARDCASES section 0: closed, star-shaped around the origin, wound
 // outward.
 inline PolygonMesh star_sphere(std::uint32_t rows, std::uint32_t columns, double amplitude,
