@@ -2,6 +2,8 @@
 // The tracer's questions about a scene, answered through the hierarchy. Which surface is met is decided by
 // common/model/visibility.h alone; here only candidates are found.
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 
 #include "raytrace/prepared.h"
 
@@ -20,6 +22,11 @@ Box box_of(const Scene& scene, const PrimitiveRef& ref) {
   return box;
 }
 
+bool is_finite(const Ray& ray) {
+  const glm::dvec3 sum = glm::abs(ray.origin) + glm::abs(ray.direction);
+  return std::isfinite(sum.x + sum.y + sum.z);
+}
+
 bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
   return scene.materials[primitive_material(scene, primitive)].casts_shadow;
 }
@@ -27,6 +34,7 @@ bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
 // All primitives that may be met at a depth <= limit: visit(primitive, limit) returns the new limit, negative to stop.
 template <class Visit>
 void candidates(const Prepared& prepared, const Ray& ray, double limit, const Visit& visit) {
+  if (!is_finite(ray)) return;   // it meets nothing, but no box would turn it away
   for (const std::uint32_t primitive : prepared.planes) {
     limit = visit(primitive, limit);
     if (limit < 0) return;

@@ -33,6 +33,7 @@ int dot_cross_sign(const glm::dvec3& x, const glm::dvec3& edge, const glm::dvec3
     ++counts.in_double;
     return value > 0 ? 1 : -1;
   }
+  if (!std::isfinite(bound)) return 0;   // a ray that is not finite lies on no side of anything
   ++counts.exact;
   return exact::determinant_sign(x, b, c);
 }

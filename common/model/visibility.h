@@ -85,7 +85,8 @@ double triangle_depth(const TriangleView& view, const DepthPlane& plane, const g
 // ---- Any primitive ----
 
 // The nearest hit of one primitive that comes after `after`; not found() if there is none. Spheres: tangent is a hit,
-// from inside one sees the inside. Planes: a parallel or contained ray is a miss. One of counts.tests.
+// from inside one sees the inside. Planes: a parallel or contained ray is a miss. A ray that is not finite, against the
+// contract, meets nothing. One of counts.tests.
 Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after, SignCounts& counts);
 
 // The nearest hit of all primitives, by looking at every one of them.
