@@ -3,6 +3,7 @@
 // environment variable SIDELIGHT_TIER, which tests/run.sh sets), and how to say that a test does not apply here.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -48,6 +49,11 @@ inline std::uint64_t tier_count(const std::string& name) {
   if (end != text.size() || value < 0 || value > 1e18 || value != std::floor(value))
     throw std::runtime_error("tests/tiers.txt: " + name + " is " + text + ", expected a count");
   return static_cast<std::uint64_t>(value);
+}
+
+// Edge of a square picture of about rays_per_case pixels, 1024 at most.
+inline int tier_edge() {
+  return static_cast<int>(std::min(1024.0, std::sqrt(static_cast<double>(tier_count("rays_per_case")))));
 }
 
 // The entries of a list: "1,9" gives 1 and 9, "-" nothing.

@@ -67,7 +67,7 @@ double seconds_of(const std::function<void()>& work) {
 
 }  // namespace
 
-TEST_CASE("hard cases: flat boxes are met as brute force meets their triangles") {
+TEST_CASE("BVH-3: flat boxes are met as brute force meets their triangles") {
   const Scene box = scene_of(make_box({2, 2, 2}));  // twelve triangles with flat boxes
   const Prepared prepared(box);
   Random random(31);
@@ -86,7 +86,7 @@ TEST_CASE("hard cases: flat boxes are met as brute force meets their triangles")
   flat.none("rays that leave a closed box of quads", leaked, inside);
 }
 
-TEST_CASE("hard cases: a bad primitive is refused by its number") {
+TEST_CASE("BVH-7: a bad primitive is refused by its number") {
   const PolygonMesh star = star_sphere(24, 24, 0.2, 2);
   std::uint64_t accepted = 0, all = 0;
   for (const double bad : {kNaN, kInfinity, -kInfinity, 3e38, 1.1e15}) {
@@ -117,7 +117,7 @@ TEST_CASE("hard cases: a bad primitive is refused by its number") {
 }
 
 // The largest and the smallest that are let in, beside a mesh of size 1.
-TEST_CASE("hard cases: the largest primitive that is let in hides no other") {
+TEST_CASE("BVH-7: the largest primitive that is let in hides no other") {
   const Scene without = scene_of(star_sphere(24, 24, 0.2, 2));
   Scene with = without;
   add_mesh(with, mesh_of({{-1e15, -3, -1e15}, {1e15, -3, -1e15}, {0, -3, 1e15}}, {{0, 1, 2}}), {}, {});
@@ -138,7 +138,7 @@ TEST_CASE("hard cases: the largest primitive that is let in hides no other") {
   HardCase("BVH-7").none("hits that primitives of size 1e15 and 1e-30 change", changed, hits);
 }
 
-TEST_CASE("hard cases: rays that are not finite meet nothing, soon") {
+TEST_CASE("BVH-8: rays that are not finite meet nothing, soon") {
   Scene scene = scene_of(star_sphere(24, 24, 0.2, 2));
   add_sphere(scene, {{0, 0, 0}, 2, 0}, {});
   add_plane(scene, {{0, -1, 0}, {0, 1, 0}, 0}, {});

@@ -39,7 +39,7 @@ Scene ball_on(const glm::dvec3& normal) {
 
 }  // namespace
 
-TEST_CASE("hard cases: slopes of a ray over a plane, from 1 down to the least double and to none") {
+TEST_CASE("PLN-1: slopes of a ray over a plane, from 1 down to the least double and to none") {
   const Scene floor = scene_of(Plane{{0, 0, 0}, {0, 1, 0}, 0});
   std::uint64_t wrong = 0, all = 0;
   Worst error;  // of t, in eps
@@ -60,7 +60,7 @@ TEST_CASE("hard cases: slopes of a ray over a plane, from 1 down to the least do
   slopes.at_most("error of t = -o.y/d.y in eps", error, 4);
 }
 
-TEST_CASE("hard cases: a plane's normal scaled by 2^k changes no bit of a picture") {
+TEST_CASE("PLN-3: a plane's normal scaled by 2^k changes no bit of a picture") {
   const glm::dvec3 normal(0.03, 1, -0.1);
   const Scene scene = ball_on(normal);
   const Camera camera = make_camera(scene.camera, 80, 60, 1);
@@ -79,7 +79,7 @@ TEST_CASE("hard cases: a plane's normal scaled by 2^k changes no bit of a pictur
 // cancels (scaled by f: u; divided by the length: u), a dot product of it by 3 u, the difference of points by u: 6 u of
 // its sum of magnitudes, above and below, so 3 eps of the condition, if all roundings took one side. The catalogue's 2
 // is kept.
-TEST_CASE("hard cases: a plane's depth does not depend on the length of its normal") {
+TEST_CASE("PLN-3: a plane's depth does not depend on the length of its normal") {
   Random random(43);
   Worst error;  // in eps (|n||p - o|/|n.(p - o)| + |n||d|/|n.d|)
   for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {

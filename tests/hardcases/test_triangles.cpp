@@ -70,7 +70,7 @@ ExactHit exact_hit(const Scene& scene, std::uint32_t triangle, const Ray& ray) {
 
 // Integers, so that no library's sine stands between two builds. What the builds and instruction sets must agree on is
 // a constant: the primitive and every bit of the depth of 10,000 rays, half of them at edges and vertices.
-TEST_CASE("hard cases: every build finds the same hits, bit for bit") {
+TEST_CASE("TRI-3: every build finds the same hits, bit for bit") {
   Random random(11);
   std::vector<glm::dvec3> positions;
   std::vector<Face> faces;
@@ -99,7 +99,7 @@ TEST_CASE("hard cases: every build finds the same hits, bit for bit") {
   HardCase("TRI-3").holds("hash of 10,000 hits as in every other build", hash == 4958428640033256205);
 }
 
-TEST_CASE("hard cases: triangles without area change no bit of a picture") {
+TEST_CASE("TRI-4: triangles without area change no bit of a picture") {
   const Scene without = torus_over_floor();
   Scene with = torus_over_floor();
   const glm::dvec3 p(0, 0.25, 1), q(1, 0.75, 0.5);
@@ -125,7 +125,7 @@ TEST_CASE("hard cases: triangles without area change no bit of a picture") {
 
 // A box whose edge a b is one edge on one side and two on the other, m its middle; the triangle b a m, without area,
 // closes it. From a grid all differences are exact, so a m and m b lie on a b and nothing leaks between them.
-TEST_CASE("hard cases: a mesh that triangles without area close does not leak beside them") {
+TEST_CASE("TRI-4: a mesh that triangles without area close does not leak beside them") {
   constexpr double kHalf = 1024;
   PolygonMesh box = make_box(glm::dvec3(2 * kHalf));
   std::vector<glm::dvec3> positions = box.positions;
@@ -157,7 +157,7 @@ TEST_CASE("hard cases: a mesh that triangles without area close does not leak be
                          tier_count("rays_per_case"));
 }
 
-TEST_CASE("hard cases: t, u and v on the unit triangle") {
+TEST_CASE("TRI-7: t, u and v on the unit triangle") {
   Random random(17);
   const Scene scene = scene_of_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   SignCounts counts;
@@ -179,7 +179,7 @@ TEST_CASE("hard cases: t, u and v on the unit triangle") {
 // |b2 v2|), the bound of a weighted sum, does not hold where b0 is small and v0 is not. With V the largest of the
 // three in a component: an edge is at most 2 V and rounded by u, its product by u, and b1 + b2 <= 1: 4 u V; the two
 // sums 2 u V; 1 u V for the second order and b's own rounding.
-TEST_CASE("hard cases: t, barycentrics and point on a star, at any scale and place") {
+TEST_CASE("TRI-7: t, barycentrics and point on a star, at any scale and place") {
   Random random(19);
   SignCounts counts;
   std::uint64_t outside = 0, hits = 0;
@@ -223,7 +223,7 @@ TEST_CASE("hard cases: t, barycentrics and point on a star, at any scale and pla
 }
 
 // Positions reach from 1e-30 to 1e15: 2^-99 to 2^49.
-TEST_CASE("hard cases: scaling by powers of two changes no hit, no barycentric and no bit of t") {
+TEST_CASE("TRI-9: scaling by powers of two changes no hit, no barycentric and no bit of t") {
   PolygonMesh star = star_sphere(16, 16, 0.3, 3);
   for (glm::dvec3& p : star.positions)
     for (int axis = 0; axis < 3; ++axis)

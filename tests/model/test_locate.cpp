@@ -11,6 +11,7 @@
 #include "common/model/visibility.h"
 #include "common/scene/shapes.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/rays.h"
 #include "tests/support/scenes.h"
 #include "tests/support/wide.h"
 #include "tests/support/worst.h"
@@ -24,15 +25,6 @@ namespace {
 constexpr double kU = 0x1p-53;
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-// A unit vector on the side of `normal`: half of them with its cosine evenly spread over the magnitudes from
-// 1e-6 to 1.
-glm::dvec3 outward(const glm::dvec3& normal, Random& random) {
-  const bool grazing = random.uniform() < 0.5;
-  const double cosine = grazing ? random.log_uniform(1e-6, 1) : random.uniform(1e-6, 1);
-  const glm::dvec3 across = glm::normalize(glm::cross(normal, random.direction()));
-  return glm::normalize(cosine * normal + std::sqrt(1 - cosine * cosine) * across);
-}
 
 struct Departure {
   std::uint64_t rays = 0, hits = 0, again = 0, below = 0;

@@ -10,6 +10,7 @@
 #include "tests/hardcases/result.h"
 #include "tests/support/approx.h"
 #include "tests/support/random.h"
+#include "tests/support/rays.h"
 #include "tests/support/wide.h"
 #include "tests/support/worst.h"
 #include "tests/tier.h"
@@ -24,10 +25,6 @@ const glm::dvec3 kUp{0, 1, 0};
 
 // Travelling down onto the plane y = 0, at this sine with its normal.
 glm::dvec3 downward(double sine) { return {sine, -std::sqrt(1 - sine * sine), 0}; }
-
-glm::dvec3 across(const glm::dvec3& n, Random& random) {
-  return glm::normalize(glm::cross(n, random.direction()));
-}
 
 }  // namespace
 

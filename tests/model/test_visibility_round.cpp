@@ -9,6 +9,7 @@
 #include "common/model/visibility.h"
 #include "common/scene/camera.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/rays.h"
 #include "tests/support/scenes.h"
 #include "tests/support/wide.h"
 #include "tests/support/worst.h"
@@ -43,10 +44,6 @@ Hit first_hit(const Scene& scene, const Ray& ray, const Hit& after = kRayStart) 
 }
 
 double relative_error(double t, const Quad& exact) { return static_cast<double>(magnitude((t - exact) / exact)); }
-
-glm::dvec3 across(const glm::dvec3& v, Random& random) {
-  return glm::normalize(glm::cross(v, random.direction()));
-}
 
 const Sphere kUnit{};  // around the origin
 
