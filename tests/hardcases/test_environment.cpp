@@ -55,7 +55,7 @@ TEST_CASE("DET-1: threads that are held up at random change no bit") {
 // The lanes beyond a batch's size are computed with the others: whatever they hold, the others do not hear of it.
 TEST_CASE("DET-2: lanes that are not used may hold anything") {
   const Scene scene = everything();
-  const ShadingTables tables = make_shading_tables(scene);
+  const ShadingTables tables = make_shading_tables(scene, needs_of(scene));
   const Camera camera = relation_camera(scene);
   SignCounts counts;
   std::vector<std::pair<ShadingPoint<float>, ShadingMaterial>> points;

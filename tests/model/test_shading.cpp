@@ -207,7 +207,7 @@ TEST_CASE("points and lights are split into two floats that hold 48 bits of each
     Light light;
     light.position = random.in_box(1000);
     scene.lights.push_back(light);
-    const ShadingTables tables = make_shading_tables(scene);
+    const ShadingTables tables = tables_of(scene);
     Surface surface;
     surface.point = random.in_box(1000);
     const ShadingPoint<float> point = shading_point(tables, surface, {{0, 0, 0}, {0, 0, 1}});
