@@ -52,8 +52,15 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-// `text` with control characters and bytes that are not UTF-8 replaced by \xNN and cut after `max_length` bytes
-// (with "..."), so that a hostile file cannot steer the terminal through an error message.
+// `text` as it may stand in one line on a terminal or in a page: whatever could steer the terminal, reorder the line or
+// hide in it is replaced, byte by byte, by \xNN, and the rest is cut after `max_length` bytes (with "..."). Replaced are
+//   bytes that are not well-formed UTF-8 (RFC 3629): overlong forms, surrogates, stray bytes;
+//   C0 controls with newline and NUL, DEL, and C1 controls (U+0080..U+009F), which begin escape sequences;
+//   line and paragraph separators (U+2028, U+2029), at which some programs break the line;
+//   characters that are drawn as nothing (Default_Ignorable_Code_Point, UAX 44): bidirectional overrides and isolates,
+//   zero-width characters, byte order marks, tags, variation selectors.
+// N. Boucher, R. Anderson, "Trojan Source: Invisible Vulnerabilities", 2021; Unicode Technical Report 36, section 3.
+// The result is well-formed UTF-8, at most max_length + 18 bytes long.
 std::string printable(const std::string& text, std::size_t max_length = 200);
 
 }  // namespace sidelight
