@@ -21,7 +21,7 @@ namespace {
 using glm::dvec3;
 
 constexpr std::uint32_t kMaxCorners = 10'000;  // of a face: ear clipping takes their square
-constexpr std::size_t kMaxLibraries = 64;      // on one mtllib
+constexpr std::size_t kMaxLibraries = 64;      // of a file
 
 class ObjReader {
  public:
@@ -145,8 +145,7 @@ class ObjReader {
     if (!with_materials_) return;
     std::vector<Word> words;
     for (Word word; reader_.next_word(word);) {
-      if (words.size() == kMaxLibraries)
-        reader_.fail(word, "more than " + std::to_string(kMaxLibraries) + " files on one mtllib");
+      if (words.size() == kMaxLibraries) fail_libraries(word);
       words.push_back(word);
     }
     if (words.empty()) reader_.fail(keyword, "mtllib without a file");
@@ -163,6 +162,7 @@ class ObjReader {
   void read_library(const Word& word) {
     const std::string path = beside(word.text);
     if (std::find(obj_.files.begin(), obj_.files.end(), path) != obj_.files.end()) return;
+    if (obj_.files.size() > kMaxLibraries) fail_libraries(word);  // the first is the mesh
     MtlFile mtl = read_mtl(path, reader_.where(word));
     obj_.files.push_back(path);
     obj_.warnings.insert(obj_.warnings.end(), mtl.warnings.begin(), mtl.warnings.end());
@@ -175,6 +175,10 @@ class ObjReader {
       library_.push_back(std::move(material));
       used_as_.push_back(kNone);
     }
+  }
+
+  [[noreturn]] void fail_libraries(const Word& word) const {
+    reader_.fail(word, "more than " + std::to_string(kMaxLibraries) + " material files");
   }
 
   // A file's path from the OBJ's folder.

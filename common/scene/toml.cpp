@@ -163,7 +163,7 @@ std::vector<ObjectEntry> object_entries(const TableReader& root, const ObjectFil
 // --- The whole file ----------------------------------------------------------------------------------------------
 
 // All of a scene but its steps and hash; `files_read` receives the mesh files.
-Scene read_scene(const Document& document, const toml::table& source, const ObjectFilter& wanted,
+Scene read_scene(const Document& document, const toml::table& source, const ObjectFilter& wanted, Effort& effort,
                  std::vector<std::string>& files_read) {
   const TableReader root(document, source, "the scene",
                          {.required = {"camera"},
@@ -183,7 +183,7 @@ Scene read_scene(const Document& document, const toml::table& source, const Obje
 
   MaterialNames materials;
   if (const auto v = root.find("material")) materials = read_materials(*v, scene);
-  ObjectSink sink{.document = document, .materials = materials, .scene = scene};
+  ObjectSink sink{.document = document, .materials = materials, .scene = scene, .effort = effort};
   for (const ObjectEntry& entry : object_entries(root, wanted)) entry.read(sink, *entry.table);
   files_read = std::move(sink.files_read);
   return scene;
@@ -197,7 +197,7 @@ bool every_object(const ObjectEntry&) { return true; }
 // and of the objects those that the step names. Takes the step's values out of the file's tables, since only moved
 // nodes keep their place: a mistake is reported at the value that makes it, or at `where` if no single one does.
 void check_step(const Document& document, const toml::table& root, std::vector<Setting>& settings,
-                const SourceLocation& where) {
+                const SourceLocation& where, Effort& effort) {
   const Document changed_document{document.path, where};
   toml::table changed = root;
   std::vector<std::pair<std::string, std::size_t>> touched;
@@ -212,11 +212,11 @@ void check_step(const Document& document, const toml::table& root, std::vector<S
       [&](const ObjectEntry& entry) {
         return std::ranges::find(touched, std::pair(std::string(entry.kind), entry.element)) != touched.end();
       },
-      files_read);
+      effort, files_read);
 }
 
-// `check`: whether the scene stays valid with the step applied.
-Step read_step(const Document& document, const toml::table& root, toml::table& source, bool check) {
+// With an effort to count on, checks that the scene stays valid with the step applied.
+Step read_step(const Document& document, const toml::table& root, toml::table& source, Effort* effort) {
   const TableReader table(document, source, "[[step]]",
                           {.required = {"text"}, .optional = {"mode", "eye", "set"}});
   Step step;
@@ -233,18 +233,18 @@ Step read_step(const Document& document, const toml::table& root, toml::table& s
 
   // A step's eye moves the camera, after what it sets.
   if (toml::node* eye = source.get("eye")) settings.push_back({"camera.eye", eye->source(), eye});
-  if (check && !settings.empty()) check_step(document, root, settings, table.where());
+  if (effort && !settings.empty()) check_step(document, root, settings, table.where(), *effort);
   return step;
 }
 
-std::vector<Step> read_steps(const Document& document, toml::table& root, bool check) {
+std::vector<Step> read_steps(const Document& document, toml::table& root, Effort* effort) {
   std::vector<Step> steps;
   toml::node* node = root.get("step");
   if (!node) return steps;
   const Value value{document, *node, "step"};
   if (read_tables(value).size() > kMaxSteps) value.fail("at most " + std::to_string(kMaxSteps) + " steps");
   for (toml::node& step : *node->as_array())
-    steps.push_back(read_step(document, root, *step.as_table(), check));
+    steps.push_back(read_step(document, root, *step.as_table(), effort));
   return steps;
 }
 
@@ -269,9 +269,10 @@ Scene read_document(const std::string& text, const std::string& path, const Sett
   }
 
   std::vector<std::string> files_read;
-  Scene scene = read_scene(document, root, every_object, files_read);
+  Effort effort;
+  Scene scene = read_scene(document, root, every_object, effort, files_read);
   // Steps start from the file as it is: with other settings applied, a step alone proves nothing.
-  scene.steps = read_steps(document, root, set.empty());
+  scene.steps = read_steps(document, root, set.empty() ? &effort : nullptr);
 
   ContentHash hash;
   hash.add(text);

@@ -192,11 +192,20 @@ std::string read_path(const Value& value) {
   return path.string();
 }
 
+void count_files(ObjectSink& sink, const std::vector<std::string>& files, const Value& value) {
+  sink.files_read.insert(sink.files_read.end(), files.begin(), files.end());
+  std::error_code gone;
+  for (const std::string& file : files)
+    if (const std::uintmax_t bytes = std::filesystem::file_size(file, gone); !gone) sink.effort.file_bytes += bytes;
+  if (sink.effort.file_bytes > kMaxFileBytes)
+    value.fail("mesh files of at most 4 GiB together, each counted as often as meshes and steps need it");
+}
+
 // The polygons of an OBJ file; without a material of the table's own, the file's are added to the scene.
 PolygonMesh read_obj_mesh(ObjectSink& sink, const Value& value, bool own_materials) {
   const std::string path = read_path(value);
   ObjFile obj = read_obj(path, own_materials);
-  sink.files_read.insert(sink.files_read.end(), obj.files.begin(), obj.files.end());
+  count_files(sink, obj.files, value);
   sink.scene.warnings.insert(sink.scene.warnings.end(), obj.warnings.begin(), obj.warnings.end());
   if (!own_materials) return std::move(obj.mesh);
 
@@ -230,8 +239,9 @@ PolygonMesh read_shape(ObjectSink& sink, const toml::table& table, const Shape& 
   keys.required.insert(keys.required.end(), {"shape", "material"});
   keys.optional.push_back("transform");
   PolygonMesh mesh = shape.read({sink.document, table, "[[mesh]] of shape " + in_quotes(shape.name), keys});
-  sink.generated += triangle_count(mesh);
-  check_triangle_count(sink.generated, kMaxGenerated, " of generated shapes", sink.document.where(table));
+  sink.effort.generated += triangle_count(mesh);
+  check_triangle_count(sink.effort.generated, kMaxGenerated, " of generated shapes (again for each step that changes one)",
+                       sink.document.where(table));
   return mesh;
 }
 

@@ -15,7 +15,8 @@ namespace sidelight::scene_file {
 
 // Limits on what a few bytes of scene file may ask for.
 inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 25;  // in a scene
-inline constexpr std::size_t kMaxGenerated = std::size_t{1} << 22;  // of those, from shapes
+inline constexpr std::size_t kMaxGenerated = std::size_t{1} << 22;  // of those, from shapes; see Effort
+inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;  // of mesh and material files; see Effort
 inline constexpr std::size_t kMaxCorners = 10'000;  // of a written face: triangulation is O(n²)
 inline constexpr int kMaxSegments = 4096;           // of a shape, around
 inline constexpr int kMaxQuads = 1 << 18;           // of a torus
@@ -23,13 +24,20 @@ inline constexpr int kMaxQuads = 1 << 18;           // of a torus
 // Materials of the scene file by name; values index Scene::materials.
 using MaterialNames = std::map<std::string, std::uint32_t, std::less<>>;
 
+// What a few bytes of scene file have made the reader do so far: a shape or file counts each time that it is read, also
+// for the check of a step that changes its object. So no file of a lesson's size can keep the reader busy for hours.
+struct Effort {
+  std::size_t generated = 0;      // triangles of shapes
+  std::uintmax_t file_bytes = 0;  // of mesh and material files
+};
+
 // What objects are read with and where they go.
 struct ObjectSink {
   const Document& document;
   const MaterialNames& materials;
   Scene& scene;                           // objects are added, and warnings of mesh files
+  Effort& effort;                         // goes up
   std::vector<std::string> files_read{};  // OBJ and MTL files, in order
-  std::size_t generated = 0;              // triangles of shapes so far
 };
 
 // Each adds the one object of `table`. InputError for every mistake.

@@ -97,10 +97,16 @@ void ContentHash::add(std::string_view bytes) {
 
 void ContentHash::add_file(const std::string& path) {
   std::ifstream file = open(path);
+  std::error_code error;
+  std::uintmax_t left = std::filesystem::file_size(path, error);
+  if (error) throw unreadable(path, "its size cannot be found");
   std::array<char, 65536> block;
-  while (file.read(block.data(), block.size()) || file.gcount() > 0)
+  while (left > 0 && file) {
+    file.read(block.data(), static_cast<std::streamsize>(std::min<std::uintmax_t>(left, block.size())));
     add({block.data(), static_cast<std::size_t>(file.gcount())});
-  if (file.bad()) throw unreadable(path, "cannot be read to its end");
+    left -= static_cast<std::uintmax_t>(file.gcount());
+  }
+  if (left > 0) throw unreadable(path, "cannot be read to its end");
 }
 
 std::string ContentHash::hex() const {

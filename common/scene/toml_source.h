@@ -37,7 +37,9 @@ std::string read_scene_text(const std::string& path);
 class ContentHash {
  public:
   void add(std::string_view bytes);
-  void add_file(const std::string& path);  // its bytes; InputError if it cannot be read
+  // Its bytes, as many as its size says: some files of /proc and /sys say 0 and never end. InputError if it cannot be
+  // read.
+  void add_file(const std::string& path);
   std::string hex() const;                 // 16 digits
 
  private:

@@ -202,7 +202,7 @@ TEST_CASE("obj: mistakes name their line and column") {
       {"mtllib # none", "t.obj:1:1: mtllib without a file"},
       {"mtllib m.mtl gone.mtl", "t.obj:1:14: cannot read 'gone.mtl': No such file or directory"},
       {"mtllib .", "t.obj:1:8: cannot read '.': not a regular file"},
-      {"mtllib" + repeated(" m.mtl", 65), "t.obj:1:392: more than 64 files on one mtllib"},
+      {"mtllib" + repeated(" m.mtl", 65), "t.obj:1:392: more than 64 material files"},
   };
   for (const auto& [text, expected] : table) {
     CAPTURE(text);
