@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/commands/interrupt.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 
 namespace sidelight {
@@ -21,6 +24,14 @@ std::atomic<bool>& interrupt_flag() { return raised; }
 void restore_default_signals() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+}
+
+void reserve_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0) continue;
+    const int file = open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+    static_cast<void>(file);  // the lowest free number, so `stream`; where it fails, nothing more can be done
+  }
 }
 
 void install_signal_handlers() {

@@ -28,7 +28,8 @@ enum ExitCode {
 };
 
 int complain(int code, const std::string& message) {
-  fmt::print(stderr, "sidelight: {}\n", message);
+  // Not fmt::print, which throws where standard error is full: the code must get out even so.
+  std::fputs(("sidelight: " + printable(message, 2000) + "\n").c_str(), stderr);
   return code;
 }
 
@@ -57,11 +58,11 @@ int run(int argc, char** argv) {
     return exit_code;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);   // --help, --version
-    return complain(kUsage, fmt::format("{} (sidelight --help shows how)", printable(error.what())));
+    return complain(kUsage, fmt::format("{} (sidelight --help shows how)", printable(error.what(), 300)));
   } catch (const UsageError& error) {
-    return complain(kUsage, printable(error.what(), 2000));
+    return complain(kUsage, error.what());
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());   // begins with file:line:column, where editors look for it
+    std::fputs((error.what() + std::string("\n")).c_str(), stderr);   // begins with file:line:column, where editors look for it
     return kInput;
   } catch (const std::bad_alloc&) {
     return complain(kInput, "not enough memory for this scene and size");
@@ -72,12 +73,12 @@ int run(int argc, char** argv) {
   } catch (const NoDisplay& error) {
     return complain(kNoDisplay, error.what());
   } catch (const OutputError& error) {
-    return complain(kOutput, printable(error.what(), 2000));
+    return complain(kOutput, error.what());
   } catch (const Interrupted& error) {
     return complain(kInterrupted, error.what());
   } catch (const std::system_error& error) {
-    if (!std::ferror(stdout)) throw;
-    return complain(kOutput, fmt::format("standard output: {}", error.what()));
+    if (!std::ferror(stdout) && !std::ferror(stderr)) throw;
+    return complain(kOutput, fmt::format("standard {}: {}", std::ferror(stdout) ? "output" : "error", error.what()));
   }
 }
 
@@ -85,6 +86,7 @@ int run(int argc, char** argv) {
 }  // namespace sidelight
 
 int main(int argc, char** argv) {
+  sidelight::reserve_standard_streams();
   sidelight::install_signal_handlers();
   return sidelight::run(argc, argv);
 }
