@@ -142,16 +142,17 @@ void add_render_command(CLI::App& app, int& exit_code) {
   verb->add_option("--renderer", flags->renderer, fmt::format("{}", fmt::join(names, ", ")))
       ->check(CLI::IsMember(names))
       ->capture_default_str();
-  verb->add_option("--layers", flags->layers,
-                   fmt::format("channels beside the colour, comma-separated: {}, all", fmt::join(kLayerNames, ", ")));
+  verb->add_option("--layers", flags->layers, "channels beside the colour, comma-separated, of those named below");
   verb->add_flag("--linear16", flags->linear16, "write the .png linear with 16 bits");
   verb->add_option("--repeat", flags->repeat, "render N times after a warm-up, the eye moving, for times")
       ->check(CLI::Range(1, 100000));
   verb->add_option("--stats", flags->stats, "write times and counts as JSON to FILE, - for standard output");
-  verb->footer(
+  verb->footer(fmt::format(
+      "Layers: {} all\n"
       "Examples:\n"
       "  sidelight render scenes/showcase.toml -o showcase.png\n"
-      "  sidelight render scenes/showcase.toml -o raster.exr --renderer raster --layers depth,object");
+      "  sidelight render scenes/showcase.toml -o raster.exr --renderer raster --layers depth,object",
+      fmt::join(kLayerNames, " ")));
   verb->callback([flags, &exit_code] { exit_code = run_render(*flags); });
 }
 
