@@ -69,7 +69,44 @@ void check_scene(const std::string& file, std::uint64_t seed) {
   }
 }
 
+// With n x n samples a pixel's colour is the mean of its samples' roots, in every bit, in a crop as in the whole.
+void check_means(const std::string& file, int n, std::uint64_t seed) {
+  CAPTURE(file);
+  const Scene scene = load_scene(file);
+  const Camera camera = make_camera(scene.camera, 61, 47, n);
+  const auto rasterizer = raster::prepare(scene);
+  const auto tracer = raytrace::prepare(scene);
+  const Frame flat = raster::render(*rasterizer, camera, {}), deep = raytrace::render(*tracer, camera, {});
+  test::Random random(seed);
+  for (int i = 0; i < 12; ++i) {
+    const int x = static_cast<int>(random.below(61)), y = static_cast<int>(random.below(47));
+    CAPTURE(x);
+    CAPTURE(y);
+    PixelMean flat_mean, deep_mean;
+    for (int sample = 0; sample < n * n; ++sample) {
+      const int X = n * x + sample % n, Y = n * y + sample / n;
+      flat_mean.add(raster::explain(*rasterizer, camera, X, Y).color);
+      const RayRecord root = raytrace::explain(*tracer, camera, X, Y);
+      check_leaves(root);
+      deep_mean.add(root.color);
+    }
+    CHECK(flat_mean.mean(n * n) == flat.color[flat.index(x, y)]);
+    CHECK(deep_mean.mean(n * n) == deep.color[deep.index(x, y)]);
+
+    RenderOptions cropped;
+    cropped.crop = {x, y, x + 1, y + 1};
+    CHECK(raster::render(*rasterizer, camera, cropped).color[0] == flat.color[flat.index(x, y)]);
+    CHECK(raytrace::render(*tracer, camera, cropped).color[0] == deep.color[deep.index(x, y)]);
+  }
+}
+
 }  // namespace
+
+TEST_CASE("explain: the mean of the samples' roots is the pixel on every scene, cropped or not") {
+  std::uint64_t seed = 1;
+  for (const std::string& file : shipped_scenes()) check_means(file, 3, seed++);
+  check_means(kEverything, 2, seed);
+}
 
 TEST_CASE("explain: the root is the picture's colour and the leaves add up to it on every scene") {
   std::uint64_t seed = 1;
