@@ -8,7 +8,7 @@ usage() {
 usage: tests/run.sh [--ci | --long] [--preset P]... [--bless]
 
   (nothing)    at most 15 minutes from a fresh clone, packages included
-  --ci         at most 60 minutes: sanitizers, every instruction set, planted faults
+  --ci         at most 60 minutes: sanitizers, every instruction set, planted faults, fuzzing
   --long       what takes longer
   --preset P   build and test P only (release, debug, asan-ubsan, tsan; may be repeated)
   --bless      store the small reference pictures anew, from the release build, and name those that changed
@@ -140,25 +140,28 @@ run_isas() {
   record "instruction sets" "$start" "$good" "$bad" "$absent"
 }
 
-# Its closing line counts, as ours does; without one it is one case.
-run_planted_faults() {
-  local start=$SECONDS log="$root/build/planted_faults.log" code=0 good bad
-  echo "== planted faults"
-  SIDELIGHT_TIER="$tier" "$root/tests/planted_faults.sh" 2>&1 | tee -- "$log" || code=$?
+# The stage $1 is the script and arguments that follow. Its closing line counts, as ours does; without one it is one case.
+run_script() {
+  local start=$SECONDS name=$1 log="$root/build/${1// /_}.log" code=0 good bad
+  shift
+  echo "== $name"
+  SIDELIGHT_TIER="$tier" "$@" 2>&1 | tee -- "$log" || code=$?
   if [[ $(tail -n 1 -- "$log") =~ ^([0-9]+)\ passed,\ ([0-9]+)\ failed ]]; then
     good=${BASH_REMATCH[1]} bad=${BASH_REMATCH[2]}
     ((code == 0 || bad > 0)) || bad=1
   else
     good=$((code == 0)) bad=$((code != 0))
   fi
-  record "planted faults" "$start" "$good" "$bad" 0
+  record "$name" "$start" "$good" "$bad" 0
 }
 
 echo "tier: $tier"
 sed '/^#/d; /^$/d; s/^/  /' "$root/tests/tiers.txt"
 
 start=$SECONDS
-"$root/viewer/install_packages.sh" build test
+sections=(build test)
+[[ $(entry fuzz_seconds "$tier") == 0 ]] || sections+=(fuzz)
+"$root/viewer/install_packages.sh" "${sections[@]}"
 record packages "$start" 0 0 0
 
 only_presets=${bless}${presets[*]}
@@ -169,7 +172,9 @@ for preset in "${presets[@]}"; do run_preset "$preset"; done
 if [[ -z $only_presets ]]; then
   read -ra isas <<<"$(entry isas "$tier")"
   ((${#isas[@]} == 0)) || run_isas "${isas[@]}"
-  [[ $(entry planted_faults "$tier") == 0 ]] || run_planted_faults
+  [[ $(entry planted_faults "$tier") == 0 ]] || run_script "planted faults" "$root/tests/planted_faults.sh"
+  fuzz_seconds="$(entry fuzz_seconds "$tier")"
+  [[ $fuzz_seconds == 0 ]] || run_script fuzzing "$root/tests/fuzz/run.sh" "$fuzz_seconds"
 fi
 
 echo
