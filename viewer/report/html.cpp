@@ -13,23 +13,6 @@ namespace {
 constexpr std::string_view kReplacement = "\uFFFD";
 constexpr int kLeastWidth = 480;  // of a picture on the page, in CSS pixels: what is smaller is enlarged
 
-// The code point of a well-formed sequence.
-char32_t decoded(std::string_view sequence) {
-  constexpr std::array<unsigned, 5> kLeadBits{0, 0x7F, 0x1F, 0x0F, 0x07};
-  char32_t code = static_cast<unsigned char>(sequence[0]) & kLeadBits[sequence.size()];
-  for (const char c : sequence.substr(1)) code = code << 6 | (static_cast<unsigned char>(c) & 0x3Fu);
-  return code;
-}
-
-bool is_control(char32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
-
-// Marks, embeddings, overrides and isolates of the bidirectional algorithm (Unicode Standard Annex 9, section 2), and
-// the separators of lines and paragraphs that stand among them.
-bool turns_direction(char32_t code) {
-  return code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
-         (code >= 0x2066 && code <= 0x2069);
-}
-
 std::string_view inert(std::string_view sequence) {
   switch (sequence[0]) {
     case '&':
@@ -49,8 +32,7 @@ std::string_view inert(std::string_view sequence) {
     default:
       break;
   }
-  const char32_t code = decoded(sequence);
-  return is_control(code) || turns_direction(code) ? kReplacement : sequence;
+  return is_harmful(code_point(sequence, 0, sequence.size())) ? kReplacement : sequence;
 }
 
 // By which whole factor a picture is enlarged on the page.
