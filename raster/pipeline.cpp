@@ -6,8 +6,10 @@
 #include "common/float_state.h"
 #include "common/parallel.h"
 #include "raster/bins.h"
+#include "raster/faulty_tile.h"
 #include "raster/prepared.h"
 #include "raster/resolve.h"
+#include "raster/snap.h"
 #include "raster/tile.h"
 
 namespace sidelight::raster {
@@ -17,8 +19,20 @@ std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& sce
   return std::make_shared<const Prepared>(scene, needs);
 }
 
+namespace {
+
+// The same with the vertices on the grid, and that fault done with.
+Frame render_snapped(const Prepared& prepared, const Camera& camera, RenderOptions options) {
+  const Scene scene = snapped(prepared.scene, camera, *options.faults.snap_bits);
+  options.faults.snap_bits.reset();
+  return render(*prepare(scene), camera, options);
+}
+
+}  // namespace
+
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
   const StandardFloatState nearest_and_denormals;
+  if (options.faults.snap_bits) return render_snapped(prepared, camera, options);
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);
   const TileGrid grid{frame.window, options.tile};
   const int threads = thread_count(options.threads);
@@ -26,15 +40,23 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
   std::atomic<int> done{0};
 
   const Bins bins = bin_primitives(prepared.scene, camera, grid, threads);
-  parallel_for(grid.count(), threads, [&](int tile, int thread) {
-    if (options.cancel && *options.cancel) throw Interrupted();
-    SignCounts& counts = stats[static_cast<std::size_t>(thread)].signs;
-    NoFragments nothing;
-    DepthTile depth(camera, grid.tile(tile), nothing, !frame.cost.empty());
+  const auto draw_and_shade = [&](auto& depth, int tile, SignCounts& counts) {
     bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(prepared.scene, primitive, counts); });
     TileResolve resolve(prepared, camera, options.isa, grid.tile(tile));
     resolve.shade(depth, counts);
     resolve.write(frame);
+  };
+  parallel_for(grid.count(), threads, [&](int tile, int thread) {
+    if (options.cancel && *options.cancel) throw Interrupted();
+    SignCounts& counts = stats[static_cast<std::size_t>(thread)].signs;
+    if (options.faults.depth_format || options.faults.float_precision) {
+      FaultyTile depth(camera, grid.tile(tile), options.faults);
+      draw_and_shade(depth, tile, counts);
+    } else {
+      NoFragments nothing;
+      DepthTile depth(camera, grid.tile(tile), nothing, !frame.cost.empty());
+      draw_and_shade(depth, tile, counts);
+    }
     if (options.progress) options.progress(static_cast<double>(++done) / grid.count());
   });
 

@@ -16,9 +16,9 @@ class TileResolve {
  public:
   TileResolve(const Prepared& prepared, const Camera& camera, Isa isa, const Rect& pixels);
 
-  // Shades what the z-buffer of the same tile holds.
-  template <class Recorder>
-  void shade(const DepthTile<Recorder>& tile, SignCounts& counts) {
+  // Shades what the z-buffer of the same tile holds: a DepthTile, or one with faults.
+  template <class Tile>
+  void shade(const Tile& tile, SignCounts& counts) {
     const int n = camera_.n;
     for (int Y = n * pixels_.y0; Y < n * pixels_.y1; ++Y)
       for (int X = n * pixels_.x0; X < n * pixels_.x1; ++X) {

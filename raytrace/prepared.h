@@ -25,13 +25,19 @@ class Prepared {
   std::vector<Bounds> bounds;           // of each solid
 };
 
+// How triangles are decided: exactly, or as a fault on purpose (visibility_float.h).
+enum class Precision { exact, in_float };
+
 // The nearest hit after `after`; not found() if there is none. The same as nearest_of_all, found faster.
-Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts);
+Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
+            Precision precision = Precision::exact);
 
 // Something that casts shadows and stands between the ray's origin and the light; not found() if nothing does. For a
 // point light the ray's direction is light - origin and the light is at t = 1; for a directional one (light ==
 // nullptr) it is infinitely far. Of several blockers any one is returned, the same one each time.
-Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts);
+// Only what is met after `start` counts.
+Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
+            const Hit& start = kRayStart, Precision precision = Precision::exact);
 
 // All hits h with h.t in [from.t, last_t] that do not come before `from`, in order.
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,

@@ -34,11 +34,11 @@ Path eye_path(const Camera& camera, const Media& eye_media, int X, int Y) {
   return path;
 }
 
-void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media, int y, Frame& frame,
-               RenderStats& stats) {
+void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media, const Faults& faults, int y,
+               Frame& frame, RenderStats& stats) {
   const int n = camera.n;
   NoRecorder nothing;
-  Whitted whitted(prepared, stats, nothing);
+  Whitted whitted(prepared, stats, nothing, faults);
   PixelWriter pixel(frame, camera.depth_scale());
   for (int x = frame.window.x0; x < frame.window.x1; ++x) {
     for (int Y = n * y; Y < n * (y + 1); ++Y)
@@ -70,7 +70,8 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
   std::atomic<int> done{0};
   parallel_for(frame.height(), options.threads, [&](int row, int) {
     if (options.cancel && *options.cancel) throw Interrupted();
-    trace_row(prepared, camera, eye_media, frame.window.y0 + row, frame, stats[static_cast<std::size_t>(row)]);
+    trace_row(prepared, camera, eye_media, options.faults, frame.window.y0 + row, frame,
+              stats[static_cast<std::size_t>(row)]);
     if (options.progress) options.progress(static_cast<double>(++done) / frame.height());
   });
   for (const RenderStats& s : stats) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "common/model/visibility_float.h"
 #include "raytrace/prepared.h"
 
 namespace sidelight::raytrace {
@@ -42,6 +43,33 @@ void candidates(const Prepared& prepared, const Ray& ray, double limit, const Vi
   traverse(prepared.bvh, ray, limit, visit);
 }
 
+// intersect_one: intersect, or intersect_in_float.
+template <auto intersect_one>
+Hit nearest_by(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts) {
+  Hit best;
+  candidates(prepared, ray, best.t, [&](std::uint32_t primitive, double) {
+    const Hit hit = intersect_one(prepared.scene, primitive, ray, after, counts);
+    if (hit.found() && before(hit, best)) best = hit;
+    return best.t;
+  });
+  return best;
+}
+
+template <auto intersect_one>
+Hit blocker_by(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
+               SignCounts& counts) {
+  Hit found;
+  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
+  candidates(prepared, ray, limit, [&](std::uint32_t primitive, double current) {
+    if (!casts_shadow(prepared.scene, primitive)) return current;
+    const Hit hit = intersect_one(prepared.scene, primitive, ray, start, counts);
+    if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return current;
+    found = hit;
+    return -1.0;
+  });
+  return found;
+}
+
 }  // namespace
 
 Prepared::Prepared(const Scene& s, const Needs& n) : scene(s), needs(n), tables(make_shading_tables(s, n)) {
@@ -65,27 +93,15 @@ Prepared::Prepared(const Scene& s, const Needs& n) : scene(s), needs(n), tables(
     }
 }
 
-Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts) {
-  Hit best;
-  candidates(prepared, ray, best.t, [&](std::uint32_t primitive, double) {
-    const Hit hit = intersect(prepared.scene, primitive, ray, after, counts);
-    if (hit.found() && before(hit, best)) best = hit;
-    return best.t;
-  });
-  return best;
+Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts, Precision precision) {
+  return precision == Precision::exact ? nearest_by<intersect>(prepared, ray, after, counts)
+                                       : nearest_by<intersect_in_float>(prepared, ray, after, counts);
 }
 
-Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts) {
-  Hit found;
-  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
-  candidates(prepared, ray, limit, [&](std::uint32_t primitive, double current) {
-    if (!casts_shadow(prepared.scene, primitive)) return current;
-    const Hit hit = intersect(prepared.scene, primitive, ray, kRayStart, counts);
-    if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return current;
-    found = hit;
-    return -1.0;
-  });
-  return found;
+Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts, const Hit& start,
+            Precision precision) {
+  return precision == Precision::exact ? blocker_by<intersect>(prepared, ray, light, start, counts)
+                                       : blocker_by<intersect_in_float>(prepared, ray, light, start, counts);
 }
 
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,

@@ -28,8 +28,8 @@ Traced Whitted<Recorder>::trace(const Path& arriving) {
   Surface surface;
   recorder_.begin(path);
   // A surface inside a medium that goes on behind it is passed without colour; what the eye itself meets is shaded.
-  for (Hit hit = nearest(prepared_, path.ray, path.start, stats_.signs);;
-       hit = nearest(prepared_, path.ray, hit, stats_.signs)) {
+  for (Hit hit = nearest(prepared_, path.ray, path.start, stats_.signs, precision_);;
+       hit = nearest(prepared_, path.ray, hit, stats_.signs, precision_)) {
     out.hit = hit;
     if (!hit.found()) {
       out.color = out.ambient = glm::vec3(scene_.background);
@@ -94,9 +94,11 @@ void Whitted<Recorder>::add_local(const Surface& surface, const Ray& ray, Traced
 template <class Recorder>
 Hit Whitted<Recorder>::shadow_blocker(const Surface& surface, const Light& light) {
   ++stats_.rays.shadow;
-  const glm::dvec3 from = surface.point + surface.clearance * surface.facing;
-  if (light.directional) return blocker(prepared_, make_ray(from, -light.direction), nullptr, stats_.signs);
-  return blocker(prepared_, make_ray(from, light.position - from), &light.position, stats_.signs);
+  glm::dvec3 from = surface.point;
+  if (!shadow_offset_) from += surface.clearance * surface.facing;
+  const Ray ray = make_ray(from, light.directional ? -light.direction : light.position - from);
+  const Hit start{shadow_offset_ ? *shadow_offset_ / glm::length(ray.direction) : kRayStart.t, kNone};
+  return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start, precision_);
 }
 
 template <class Recorder>

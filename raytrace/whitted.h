@@ -4,6 +4,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "common/picture/frame.h"
 #include "raytrace/path.h"
@@ -27,8 +28,13 @@ struct Traced {
 template <class Recorder>
 class Whitted {
  public:
-  Whitted(const Prepared& prepared, RenderStats& stats, Recorder& recorder)
-      : prepared_(prepared), scene_(prepared.scene), stats_(stats), recorder_(recorder) {}
+  Whitted(const Prepared& prepared, RenderStats& stats, Recorder& recorder, const Faults& faults = {})
+      : prepared_(prepared),
+        scene_(prepared.scene),
+        stats_(stats),
+        recorder_(recorder),
+        shadow_offset_(faults.shadow_offset),
+        precision_(faults.float_precision ? Precision::in_float : Precision::exact) {}
 
   Traced trace(const Path& path);
 
@@ -42,6 +48,8 @@ class Whitted {
   const Scene& scene_;
   RenderStats& stats_;
   Recorder& recorder_;
+  std::optional<double> shadow_offset_;   // faults on purpose (faults.h)
+  Precision precision_;
 };
 
 extern template class Whitted<NoRecorder>;

@@ -86,7 +86,8 @@ void assert_has_causes(const Frame& traced) {
 
 // Counts covered pixels and mismatching samples. An object is a function of its primitive, so the primitive
 // decides for both; a sample that hits nothing has no depth to compare.
-void compare_visibility(const Frame& rastered, const Frame& traced, Comparison& result) {
+void compare_visibility(const Frame& rastered, const Frame& traced, const std::vector<char>& spoiled,
+                        Comparison& result) {
   const std::size_t samples = static_cast<std::size_t>(rastered.n) * static_cast<std::size_t>(rastered.n);
   assert(rastered.n == traced.n);
   assert(rastered.sample_primitive.size() == rastered.pixels() * samples);
@@ -106,6 +107,7 @@ void compare_visibility(const Frame& rastered, const Frame& traced, Comparison& 
       if (!same_primitive || (primitive != kNone && !same_depth)) ++mismatches;
     }
     if (covered) ++result.covered;
+    if (!spoiled.empty() && spoiled[i]) continue;
     if (mismatches > 0 && result.mismatch_x < 0) {
       result.mismatch_x = picture_x(rastered, i);
       result.mismatch_y = picture_y(rastered, i);
@@ -114,9 +116,11 @@ void compare_visibility(const Frame& rastered, const Frame& traced, Comparison& 
   }
 }
 
-void check_ledger(const Frame& rastered, const Frame& traced, std::size_t lights, Comparison& result) {
+void check_ledger(const Frame& rastered, const Frame& traced, std::size_t lights, const std::vector<char>& spoiled,
+                  Comparison& result) {
   const double tolerance = (2 * static_cast<double>(lights) + 12) * 0x1p-24;
   for (std::size_t i = 0; i < rastered.pixels(); ++i) {
+    if (!spoiled.empty() && spoiled[i]) continue;
     bool explained = true;
     for (int channel = 0; channel < 3; ++channel) {
       const Entry e = entry(rastered, traced, i, channel);
@@ -176,14 +180,16 @@ glm::vec3 cause_color(const Frame& rastered, const Frame& traced, std::size_t i)
 // against red and green, they lie at the two ends and between.
 const std::array<glm::vec3, 3> kCauseHues{{{0.0f, 0.378f, 1.0f}, {1.0f, 0.438f, 0.0f}, {0.0f, 1.0f, 0.501f}}};
 
-Comparison compare(const Frame& rastered, const Frame& traced, std::size_t lights) {
+Comparison compare(const Frame& rastered, const Frame& traced, std::size_t lights, const std::vector<char>& spoiled) {
   assert_comparable(rastered, traced);
   assert_has_causes(traced);
   Comparison result;
   result.width = rastered.width();
   result.height = rastered.height();
-  compare_visibility(rastered, traced, result);
-  check_ledger(rastered, traced, lights, result);
+  assert(spoiled.empty() || spoiled.size() == rastered.pixels());
+  result.spoiled = spoiled.size() - static_cast<std::size_t>(std::count(spoiled.begin(), spoiled.end(), 0));
+  compare_visibility(rastered, traced, spoiled, result);
+  check_ledger(rastered, traced, lights, spoiled, result);
   result.shadow = sum_up(traced.layer(Layer::shadow));
   result.reflection = sum_up(traced.layer(Layer::reflection));
   result.refraction = sum_up(traced.layer(Layer::refraction));

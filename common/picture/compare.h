@@ -25,18 +25,21 @@ struct Comparison {
   std::uint64_t visibility_mismatches = 0;  // samples whose object, primitive or depth differ in any bit
   std::uint64_t unexplained = 0;   // pixels the ledger does not account for, or with a value not finite
   double ledger_max_residual = 0;  // max |traced - (R - S + M + G)| / (R + S + M + G); 0/0 = 0, x/0 = inf
+  std::uint64_t spoiled = 0;       // pixels changed by faults on purpose, which are in neither count
   Cause shadow, reflection, refraction;
   Metrics metrics;  // traced against rastered; its maximum in picture coordinates
   // First offenders (row by row) for the message, picture coordinates; -1 if none.
   int mismatch_x = -1, mismatch_y = -1, unexplained_x = -1, unexplained_y = -1;
 
-  bool agrees() const { return visibility_mismatches == 0 && unexplained == 0; }
+  bool agrees() const { return visibility_mismatches == 0 && unexplained == 0 && spoiled == 0; }
 };
 
 // Both frames of one size, window and sample count, with keep_samples; `traced` with the three ledger layers.
 // `lights` is the number of lights of the scene: the tolerance is (2 lights + 12) 2^-24 (R + S + M + G),
 // derived in compare.cpp, and none in a channel where S = M = G = 0: there traced must be R in every bit.
-Comparison compare(const Frame& rastered, const Frame& traced, std::size_t lights);
+// `spoiled`: one a pixel, not 0 where a fault on purpose changes it (faults.h); empty without faults.
+Comparison compare(const Frame& rastered, const Frame& traced, std::size_t lights,
+                   const std::vector<char>& spoiled = {});
 
 // hue = the cause whose term has the greatest luminance, brightness = |traced - R|: its luminance, at most 1,
 // so that an 8-bit picture keeps the hue. Black where the pictures are equal; white where they differ without

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/math/isa.h"
+#include "common/model/faults.h"
 
 namespace sidelight {
 
@@ -55,6 +56,7 @@ struct RenderOptions {
   LayerMask layers = 0;                // which layers to fill
   bool keep_samples = false;           // fill Frame::sample_primitive and sample_depth
   Rect crop;                           // empty: the whole picture
+  Faults faults;                       // off; the references know none
   std::atomic<bool>* cancel = nullptr;            // raised from outside: the renderer throws Interrupted soon after
   std::function<void(double done)> progress;      // called now and then, from any thread, with done in [0, 1]
 };

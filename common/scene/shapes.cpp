@@ -156,4 +156,27 @@ PolygonMesh make_torus(double major, double minor, int around, int tube) {
   return mesh;
 }
 
+PolygonMesh make_sphere_mesh(int segments) {
+  assert(segments >= 4 && segments % 2 == 0);
+  PolygonMesh mesh;
+  const auto n = static_cast<std::uint32_t>(segments), rings = n / 2 - 1;
+  const std::vector<dvec2> equator = circle(segments);
+  for (std::uint32_t k = 1; k <= rings; ++k) {   // from the south pole up
+    const dvec2 meridian = circle_point(k, segments);
+    add_ring(mesh, equator, meridian.y, -meridian.x);
+  }
+  const std::uint32_t south = add_position(mesh, {0, -1, 0}), north = add_position(mesh, {0, 1, 0});
+  mesh.normals = mesh.positions;
+
+  const auto corner = [](std::uint32_t i) { return Corner{i, i}; };
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n, top = (rings - 1) * n;
+    add_face(mesh, {corner(south), corner(i), corner(j)});
+    for (std::uint32_t ring = 0; ring < top; ring += n)
+      add_face(mesh, {corner(ring + i), corner(ring + n + i), corner(ring + n + j), corner(ring + j)});
+    add_face(mesh, {corner(north), corner(top + j), corner(top + i)});
+  }
+  return mesh;
+}
+
 }  // namespace sidelight

@@ -21,4 +21,8 @@ PolygonMesh make_cone(double radius, double height, int segments);
 // `around` >= 3 segments along the ring, `tube` >= 3 around the tube.
 PolygonMesh make_torus(double major, double minor, int around, int tube);
 
+// The sphere of radius 1: `segments` of longitude around the y axis (even, >= 4) and half as many of latitude, vertices
+// on the sphere; smooth.
+PolygonMesh make_sphere_mesh(int segments);
+
 }  // namespace sidelight

@@ -33,6 +33,16 @@ inline std::vector<std::string> shipped_scenes() {
   return files;
 }
 
+// Those in which a fault on purpose shows; without it they keep every promise.
+inline std::vector<std::string> hard_scenes() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(SIDELIGHT_SOURCE_DIR "/scenes/hard"))
+    files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  REQUIRE(!files.empty());
+  return files;
+}
+
 // A small scene in which every rule of the model matters somewhere, and with it every fault.
 inline const std::string kEverything = SIDELIGHT_SOURCE_DIR "/tests/agreement/everything.toml";
 

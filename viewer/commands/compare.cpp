@@ -8,6 +8,7 @@
 
 #include "viewer/commands/all_modes.h"
 #include "viewer/commands/commands.h"
+#include "viewer/commands/faulty.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
 #include "viewer/report/compare_report.h"
@@ -24,8 +25,8 @@ struct CompareFlags {
 
 nlohmann::ordered_json cause_json(const Cause& cause) { return {{"pixels", cause.pixels}, {"energy", cause.energy}}; }
 
-std::string comparison_json(const Job& job, const Comparison& result, const TimedFrame& rastered,
-                            const TimedFrame& traced) {
+std::string comparison_json(const Job& job, const Comparison& result, const Spoiled& spoiled,
+                            const TimedFrame& rastered, const TimedFrame& traced) {
   nlohmann::ordered_json json{{"width", result.width},
                               {"height", result.height},
                               {"covered", result.covered},
@@ -42,6 +43,7 @@ std::string comparison_json(const Job& job, const Comparison& result, const Time
   };
   if (!job.flags.no_times) json["time_ms"] = {{"raster", times_json(rastered)}, {"raytrace", times_json(traced)}};
   json["faults"] = nlohmann::ordered_json::object();
+  for (const FaultCount& each : spoiled.by_fault) json["faults"][std::string(fault_name(each.fault))] = each.pixels;
   return json.dump(2) + "\n";
 }
 
@@ -77,7 +79,7 @@ std::string report(const Job& job, const Comparison& result, const TimedFrame& r
   const Metrics::Max& max = result.metrics.max;
   CompareReport out{job.scene, rastered.frame, traced.frame, result, job_metadata(job, "raster, raytrace"),
                     fmt::format("{} --pixel {},{}", command_line(job, "explain"), max.x, max.y),
-                    command_line(job, "view"), {}, {}};
+                    command_line(job, "view") + fault_arguments(job.options.faults), {}, {}};
   if (!job.flags.no_times) {
     out.raster_times = times(rastered);
     out.traced_times = times(traced);
@@ -86,7 +88,7 @@ std::string report(const Job& job, const Comparison& result, const TimedFrame& r
 }
 
 // What a person wants to read first; on stderr, as stdout is for data.
-void print_summary(const Comparison& result, const std::string& folder) {
+void print_summary(const Comparison& result, const Spoiled& spoiled, const std::string& folder) {
   fmt::print(stderr, "{}x{}: {} visibility mismatches, {} unexplained pixels\n", result.width, result.height,
              result.visibility_mismatches, result.unexplained);
   const auto line = [](const char* name, const Cause& cause) {
@@ -95,6 +97,9 @@ void print_summary(const Comparison& result, const std::string& folder) {
   line("shadow", result.shadow);
   line("reflection", result.reflection);
   line("refraction", result.refraction);
+  for (const FaultCount& each : spoiled.by_fault)
+    fmt::print(stderr, "  the fault {} spoils {} pixels, which are in neither count; {} of them show another surface\n",
+               fault_name(each.fault), each.pixels, each.other_surface);
   if (result.visibility_mismatches > 0)
     fmt::print(stderr, "  first mismatch at pixel {},{}\n", result.mismatch_x, result.mismatch_y);
   if (result.unexplained > 0)
@@ -113,12 +118,13 @@ int run_compare(const CompareFlags& flags) {
 
   const TimedFrame rastered = render_all_layers(job, raster);
   const TimedFrame traced = render_all_layers(job, raytrace);
-  const Comparison result = compare(rastered.frame, traced.frame, job.scene.lights.size());
+  const Spoiled spoiled = find_spoiled(job, rastered.frame, traced.frame);
+  const Comparison result = compare(rastered.frame, traced.frame, job.scene.lights.size(), spoiled.mask);
   write_pictures(job, flags.folder, rastered, traced);
-  write_text_file(flags.folder + "/compare.json", comparison_json(job, result, rastered, traced));
+  write_text_file(flags.folder + "/compare.json", comparison_json(job, result, spoiled, rastered, traced));
   write_text_file(flags.folder + "/report.html", report(job, result, rastered, traced));
   if (flags.all_modes) write_all_modes(job, flags.folder + "/modes", rastered.frame, traced.frame);
-  if (!flags.job.quiet) print_summary(result, printable(flags.folder));
+  if (!flags.job.quiet) print_summary(result, spoiled, printable(flags.folder));
   return result.agrees() ? 0 : 1;
 }
 
@@ -128,12 +134,13 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<CompareFlags>();
   CLI::App* verb = app.add_subcommand("compare", "both pictures of a scene, their difference, and the reason for it");
   add_job_flags(*verb, flags->job);
+  add_fault_flags(*verb, flags->job.faults);
   verb->add_option("-o,--output", flags->folder, "folder DIR for the report, the pictures and compare.json")->required();
   verb->add_flag("--no-times", flags->job.no_times, "leave times out, so that equal runs give equal files");
   verb->add_flag("--all-modes", flags->all_modes, "also each layer and each step of the ledger, as pictures in DIR/modes");
   verb->footer(
       "DIR/report.html, opened by a double click, shows and explains it all.\n"
-      "Exit code 1 if any sample or pixel is not accounted for.\n"
+      "Exit code 1 if any sample or pixel is not accounted for, or a fault on purpose spoils one.\n"
       "Examples:\n"
       "  sidelight compare scenes/showcase.toml -o out/showcase\n"
       "  sidelight compare scenes/06-shadows.toml -o out/shadows -r 320x240 --spp 9 --all-modes");

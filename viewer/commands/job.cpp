@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/parallel.h"
+#include "common/scene/tessellate.h"
 #include "common/scene/toml.h"
 #include "viewer/commands/interrupt.h"
 
@@ -75,6 +76,18 @@ void apply_trace(const JobFlags& flags, TraceSettings& trace) {
   if (flags.no_refraction || flags.local) trace.refraction = false;
 }
 
+// Puts the faults on and says so: on stderr, and in the title, which every picture and page shows.
+void apply_faults(const JobFlags& flags, Job& job) {
+  const Faults faults = job.options.faults = parse_faults(flags.faults, job.scene.camera);
+  if (!faults.any()) return;
+  if (!flags.quiet) fmt::print(stderr, "faults on purpose: {}\n", faults.text());
+  const std::string title = job.scene.title.empty() ? flags.scene : job.scene.title;
+  job.scene.title = fmt::format("FAULTS ON PURPOSE ({}): {}", faults.text(), title);
+  if (!faults.tessellate) return;
+  job.untessellated = job.scene;
+  job.scene = tessellated(job.scene, *faults.tessellate);
+}
+
 }  // namespace
 
 glm::ivec2 parse_size(const std::string& text, const char* flag) {
@@ -125,6 +138,7 @@ Job load_job(const JobFlags& flags) {
 
   apply_size(flags, job.scene);
   apply_trace(flags, job.scene.trace);
+  apply_faults(flags, job);
   job.options.crop = parse_crop(flags, job.scene);
   job.camera = make_camera(job.scene.camera, job.scene.width, job.scene.height, n);
   return job;
@@ -145,7 +159,8 @@ void check_memory(const Job& job) {
 Metadata job_metadata(const Job& job, const std::string& renderer) {
   const TraceSettings& trace = job.scene.trace;
   const auto on = [](bool value) { return std::string(value ? "on" : "off"); };
-  return {{"program", "sidelight " SIDELIGHT_VERSION},
+  Metadata metadata{
+          {"program", "sidelight " SIDELIGHT_VERSION},
           {"renderer", renderer},
           {"scene", printable(job.flags.scene, 1000)},
           {"scene_hash", job.scene.hash},
@@ -157,6 +172,8 @@ Metadata job_metadata(const Job& job, const std::string& renderer) {
           {"shadows", on(trace.shadows)},
           {"reflection", on(trace.reflection)},
           {"refraction", on(trace.refraction)}};
+  if (job.options.faults.any()) metadata.emplace_back("faults", job.options.faults.text());
+  return metadata;
 }
 
 std::string command_line(const Job& job, std::string_view verb) {

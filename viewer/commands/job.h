@@ -5,6 +5,7 @@
 
 #include <CLI/App.hpp>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,7 @@
 #include "common/picture/image_io.h"
 #include "common/scene/camera.h"
 #include "common/scene/scene.h"
+#include "viewer/commands/fault_flags.h"
 
 namespace sidelight {
 
@@ -26,6 +28,7 @@ struct JobFlags {
   bool no_shadows = false, no_reflection = false, no_refraction = false, local = false;
   bool quiet = false;      // -q
   bool no_times = false;   // --no-times
+  FaultFlags faults;       // where the verb has them
 };
 
 // Adds the flags to a verb, with their help texts: all of them, those that say how a scene is rendered, or -q alone.
@@ -39,7 +42,8 @@ glm::ivec2 parse_size(const std::string& text, const char* flag);
 // A scene ready to be rendered.
 struct Job {
   JobFlags flags;
-  Scene scene;             // overrides applied
+  Scene scene;             // overrides applied; its title says which faults are on
+  std::optional<Scene> untessellated;   // the same with its spheres, where --tessellate took them
   Camera camera;
   RenderOptions options;   // layers and keep_samples are the verb's to set
   double load_ms = 0;

@@ -56,7 +56,7 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
   const RenderStats& stats = timed.frame.stats;
   nlohmann::ordered_json frame = spread(frame_ms);
   frame["runs"] = frame_ms.size();
-  const nlohmann::ordered_json json{
+  nlohmann::ordered_json json{
       {"renderer", renderer.name},
       {"scene", printable(job.flags.scene, 1000)},
       {"scene_hash", job.scene.hash},
@@ -83,6 +83,7 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
       {"self_shadowed", stats.self_shadowed},
       {"cut_weight", stats.cut_weight},
       {"peak_memory_mb", peak_memory_mb()}};
+  if (job.options.faults.any()) json["faults"] = job.options.faults.text();
   return json.dump(2) + "\n";
 }
 
@@ -95,6 +96,7 @@ int run_render(const RenderFlags& flags) {
   const LayerMask layers = parse_layers(flags, *renderer);
 
   Job job = load_job(flags.job);
+  check_makes_faults(renderer->name, job.options.faults);
   job.options.layers = layers;
   check_memory(job);
 
@@ -136,6 +138,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<RenderFlags>();
   CLI::App* verb = app.add_subcommand("render", "one picture of a scene, by one renderer");
   add_job_flags(*verb, flags->job);
+  add_fault_flags(*verb, flags->job.faults);
   verb->add_option("-o,--output", flags->output, "FILE.png (sRGB, 8 bit) or FILE.exr (linear float)")->required();
   std::vector<std::string> names;
   for (const Renderer& r : kRenderers) names.emplace_back(r.name);

@@ -59,6 +59,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<ViewFlags>();
   CLI::App* verb = app.add_subcommand("view", "the window: two pictures side by side, linked");
   add_job_flags(*verb, flags->job);
+  add_fault_flags(*verb, flags->job.faults);
   verb->add_flag("--no-times", flags->job.no_times, "leave times out");
   verb->add_option("--screenshot", flags->screenshot, "draw the window off screen into FILE.png instead");
   verb->add_option("--size", flags->window, "size of that window")->capture_default_str();

@@ -103,6 +103,9 @@ mirrors and glass below explain it: 0 visibility mismatches, 0 unexplained of {}
     where += html(" First mismatch at pixel {},{}.", result.mismatch_x, result.mismatch_y);
   if (result.unexplained > 0)
     where += html(" First unexplained pixel at {},{}.", result.unexplained_x, result.unexplained_y);
+  if (result.spoiled > 0)
+    where += html(" {} pixels are spoiled by faults put in on purpose, and in neither count.",
+                  Html{grouped(result.spoiled)});
   return out += html(R"(<p class="verdict bad"><strong>Not every pixel is accounted for.</strong><br>
 {} visibility mismatches, {} unexplained pixels.{}</p>
 )",
