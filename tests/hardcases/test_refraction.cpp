@@ -97,7 +97,7 @@ Scene faceted_drink(Order order) {
 }
 
 Camera camera_at(const Scene& scene) {
-  const int edge = std::min(tier_edge() / 3, 256);
+  const int edge = std::min(tier_edge() / 3, 160);
   return make_camera(scene.camera, edge, edge, 1);
 }
 
