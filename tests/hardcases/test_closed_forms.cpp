@@ -175,8 +175,9 @@ TEST_CASE("FORM-3: a ball of glass turns a ray, and makes the rainbow") {
     // in: eye, refracted; then out, or mirrored and out
     const auto way = chain(root, RayKind::refracted);
     const RayRecord* mirrored = nullptr;
-    for (const RayRecord& child : way.size() == 3 ? way[1]->children : std::vector<RayRecord>{})
-      if (child.kind == RayKind::mirrored) mirrored = &child;
+    if (way.size() == 3)
+      for (const RayRecord& child : way[1]->children)
+        if (child.kind == RayKind::mirrored) mirrored = &child;
     const auto out = mirrored ? chain(*mirrored, RayKind::refracted) : std::vector<const RayRecord*>{};
     if (out.size() != 2 || !out[1]->background || !way[2]->background) {
       ++lost;

@@ -128,6 +128,8 @@ Scene smooth_icosphere() {
 
 }  // namespace
 
+// Random rays. One that meets the very edge between two walls is mirrored by one of them and starts in the plane of the
+// other, where that is not met: it does escape.
 TEST_CASE("MIR-3: no ray escapes from a closed box of mirrors, and none brings back more than a series") {
   Random random(91);
   std::uint64_t escaped = 0, rays = 0, over = 0, trees = 0;
