@@ -52,11 +52,12 @@ Media media_behind(const Prepared& prepared, const Ray& ray, const Hit& hit, con
     if (scene.objects[object].solid && meets(prepared, object, surface.object))
       cross(behind, object, each == hit ? surface.entering : locate(scene, ray, each, counts).entering);
   };
-  if (!prepared.needs[Need::overlapping_solids] && scene.objects[surface.object].kind != ObjectKind::mesh) {
-    // Only the solid's own surface can lie together with the hit: no need to search the scene.
-    for (Hit each = hit; each.found() && each.t <= surface.together;
-         each = intersect(scene, hit.primitive, ray, each, counts))
-      cross_at(each);
+  const ObjectKind kind = scene.objects[surface.object].kind;
+  if (!prepared.needs[Need::overlapping_solids] && kind != ObjectKind::mesh) {
+    // Only the solid's own surface can lie together with the hit, a ball's far side: no need to search the scene.
+    cross_at(hit);
+    const Hit far_side = kind == ObjectKind::sphere ? intersect(scene, hit.primitive, ray, hit, counts) : Hit{};
+    if (far_side.found() && far_side.t <= surface.together) cross_at(far_side);
     return behind;
   }
   for (const Hit& each : hits_between(prepared, ray, hit, surface.together, counts)) cross_at(each);

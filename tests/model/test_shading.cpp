@@ -206,6 +206,7 @@ TEST_CASE("points and lights are split into two floats that hold 48 bits of each
     add_material(scene, {});
     Light light;
     light.position = random.in_box(1000);
+    light.intensity = glm::dvec3(1);
     scene.lights.push_back(light);
     const ShadingTables tables = tables_of(scene);
     Surface surface;

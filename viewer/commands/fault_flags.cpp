@@ -41,24 +41,21 @@ bool makes(std::string_view renderer, FaultKind fault) {
 
 void add_fault_flags(CLI::App& verb, FaultFlags& flags) {
   const std::vector<std::string> formats(kDepthFormatNames.begin(), kDepthFormatNames.end());
-  const auto add = [&](const char* name, auto& value, const std::string& help) {
-    return verb.add_option(name, value, help)->group("Faults on purpose, for teaching");
+  const auto add = [&](const char* name, auto& value, const char* type, const std::string& help) {
+    return verb.add_option(name, value, help)->type_name(type)->group("Faults on purpose, for teaching");
   };
-  add("--shadow-offset", flags.shadow_offset,
-      "shadow rays start at the surface and meet nothing nearer than this: acne, light leaks");
-  CLI::Option* format =
-      add("--depth-format", flags.depth_format,
-          fmt::format("the z-buffer stores depth as {}: z-fighting", fmt::join(formats, ", ")))
-          ->check(CLI::IsMember(formats));
-  add("--near", flags.near_plane, "its near plane; 1e-3 times the eye's distance to look_at")->needs(format);
-  add("--far", flags.far_plane, "its far plane; 1e3 times that distance")->needs(format);
-  add("--snap-bits", flags.snap_bits, "the z-buffer rounds vertices to 1/2^N pixel: cracks, wrong triangles")
-      ->check(CLI::Range(0, 16));
-  add("--tessellate", flags.tessellate,
-      "spheres as facets: N segments around, N/2 from pole to pole; N even, 4 to 1024")
-      ->check(CLI::Range(4, 1024));
-  add("--precision", flags.precision, "float: triangles are decided in float, nothing behind it")
-      ->check(CLI::IsMember({"float"}));
+  add("--shadow-offset", flags.shadow_offset, "EPS", "shadow rays start on the surface, meet nothing nearer: acne, leaks");
+  add("--depth-format", flags.depth_format, "NAME",
+      fmt::format("depth is stored as {}: z-fighting", fmt::join(formats, ", ")))
+      ->check(CLI::IsMember(formats).description(""));
+  add("--near", flags.near_plane, "Z", "its near plane; 1e-3 times the eye's distance to look_at");
+  add("--far", flags.far_plane, "Z", "its far plane; 1e3 times that distance");
+  add("--snap-bits", flags.snap_bits, "N", "vertices are rounded to 1/2^N pixel, N from 0 to 16: cracks")
+      ->check(CLI::Range(0, 16).description(""));
+  add("--tessellate", flags.tessellate, "N", "spheres are N segments around, N/2 from pole to pole; N even, 4 to 1024")
+      ->check(CLI::Range(4, 1024).description(""));
+  add("--precision", flags.precision, "float", "triangles are decided in float, with nothing behind it")
+      ->check(CLI::IsMember({"float"}).description(""));
 }
 
 Faults parse_faults(const FaultFlags& flags, const CameraSettings& camera) {
@@ -67,6 +64,8 @@ Faults parse_faults(const FaultFlags& flags, const CameraSettings& camera) {
   if (faults.shadow_offset && !(0 <= *faults.shadow_offset && *faults.shadow_offset <= kLargest))
     throw UsageError(
         fmt::format("--shadow-offset wants a length from 0 to 1e15; got {}", *faults.shadow_offset));
+  if (flags.depth_format.empty() && (flags.near_plane || flags.far_plane))
+    throw UsageError("--near and --far want a --depth-format");
   if (!flags.depth_format.empty()) {
     const auto at = std::find(kDepthFormatNames.begin(), kDepthFormatNames.end(), flags.depth_format);
     faults.depth_format = static_cast<DepthFormat>(at - kDepthFormatNames.begin());

@@ -99,7 +99,9 @@ glm::ivec2 parse_size(const std::string& text, const char* flag) {
 
 void add_render_flags(CLI::App& verb, JobFlags& flags) {
   verb.add_option("--spp", flags.spp, "samples per pixel, a square number: 1, 4, 9, ...");
-  verb.add_option("--depth", flags.depth, "rays along a path, the eye ray included")->check(CLI::Range(1, 1000));
+  verb.add_option("--depth", flags.depth, "rays along a path, the eye ray included; 1 to 1000")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000).description(""));
   verb.add_flag("--no-shadows", flags.no_shadows, "every light reaches every surface");
   verb.add_flag("--no-reflection", flags.no_reflection, "no mirror rays");
   verb.add_flag("--no-refraction", flags.no_refraction, "no refracted rays");

@@ -143,12 +143,14 @@ void add_render_command(CLI::App& app, int& exit_code) {
   std::vector<std::string> names;
   for (const Renderer& r : kRenderers) names.emplace_back(r.name);
   verb->add_option("--renderer", flags->renderer, fmt::format("{}", fmt::join(names, ", ")))
-      ->check(CLI::IsMember(names))
+      ->type_name("NAME")
+      ->check(CLI::IsMember(names).description(""))
       ->capture_default_str();
   verb->add_option("--layers", flags->layers, "channels beside the colour, comma-separated, of those named below");
   verb->add_flag("--linear16", flags->linear16, "write the .png linear with 16 bits");
   verb->add_option("--repeat", flags->repeat, "render N times after a warm-up, the eye moving, for times")
-      ->check(CLI::Range(1, 100000));
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000).description(""));
   verb->add_option("--stats", flags->stats, "write times and counts as JSON to FILE, - for standard output");
   verb->footer(fmt::format(
       "Layers: {} all\n"
