@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// What a bench finds out: for each scene, points of cost against error. Filled by sweep.cpp, judged by front.cpp, shown
+// by the tables, plots and the report. Plain data.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/picture/image_io.h"
+#include "common/picture/metrics.h"
+
+namespace sidelight {
+
+// Of repeated runs; all of one value where there was one run.
+struct Spread {
+  double min = 0, median = 0, max = 0;
+};
+
+// The distance of a picture from another, in linear float.
+struct ErrorMeasure {
+  Metrics metrics;    // max, mean, rms, psnr, non_finite
+  double p999 = 0;    // the 99.9th percentile of |a - b| over channel values
+  double relmse = 0;  // mean of (a - b)² / (b² + 0.01), b the picture that is nearer the truth
+  double depth = 0;   // greatest relative error of a depth where both pictures see the same surface
+};
+struct PictureError {
+  ErrorMeasure whole, covered;  // over all pixels, and over those where either picture meets something
+};
+
+// What an error comes from: rounding with the same samples and model; a model that leaves something out; too few
+// samples a pixel.
+enum class ErrorKind { arithmetic, model, sampling };
+inline constexpr int kErrorKinds = 3;
+inline constexpr std::array<std::string_view, kErrorKinds> kErrorKindNames{"arithmetic", "model", "sampling"};
+
+struct KnobValue {
+  std::string knob, value;  // "renderer", "raster"
+};
+
+struct BenchPoint {
+  std::size_t scene = 0;          // index into BenchResult::scenes
+  std::vector<KnobValue> config;  // every knob, in the table's order
+  std::string varied;     // the knob by which it differs from its renderer's default; empty for that itself
+  bool finished = false;  // false: the sweep was interrupted before it; the rest is then not filled
+  std::uint64_t mismatches = 0;  // samples whose surface is not the exact one
+  std::vector<std::string>
+      failures;  // gates and hard cases it fails, in words; empty: it may stand on the front
+  bool on_front = false;
+
+  Spread build_ms, frame_ms, cpu_ms;  // frame_ms and cpu_ms: of a frame, scene to finished float picture
+  std::size_t runs = 0;
+  std::uint64_t rays = 0, fragments = 0, tests = 0;  // of one frame, all kinds of rays together
+  double tests_per_ray = 0, nodes_per_ray = 0;
+  double peak_memory_mb = 0;
+
+  PictureError error;                                            // against the reference image
+  std::array<std::optional<PictureError>, kErrorKinds> by_kind;  // the kinds that apply
+
+  Image8 picture,
+      difference;  // at the scene's size in the report; the difference enlarged so that it can be seen
+  double difference_gain = 1;  // by this factor
+};
+
+// The picture that errors are measured against.
+struct ReferenceImage {
+  int n = 1;                  // n x n samples a pixel
+  std::vector<double> steps;  // RMSE between n = 1 and 2, 2 and 4, ...
+  double bound = 0;           // it stopped when a step fell below this ...
+  bool converged = false;     // ... or because n had reached 16
+  double remaining = 0;       // estimate of its own RMSE, from the last two steps
+  std::optional<double>
+      against_brute_force;  // its greatest distance from raytrace-reference, where affordable
+  double ms = 0;            // what it took, 0 if it came from the cache
+  Image8 picture;
+};
+
+struct BenchScene {
+  std::string path, title, hash;
+  int width = 0, height = 0;
+  std::uint64_t triangles = 0, spheres = 0, planes = 0;
+  Spread load_ms;
+  ReferenceImage reference;
+};
+
+// One line of the summary: a point by its index, or a ratio by which two of them differ.
+struct SceneSummary {
+  std::optional<std::size_t> standard, fastest_exact, most_accurate;  // indices into BenchResult::points
+  std::optional<double> equal_error_speedup;  // front against the standard setting: time at its error
+  std::optional<double> equal_time_error;     // and error at its time, as ratio
+};
+
+struct BenchResult {
+  std::string command, version, machine;  // the machine in words: processor, cores, instruction set
+  std::vector<BenchScene> scenes;
+  std::vector<BenchPoint> points;       // scene by scene, in the order of the sweep
+  std::vector<SceneSummary> summaries;  // one a scene
+  bool interrupted = false;
+};
+
+}  // namespace sidelight
