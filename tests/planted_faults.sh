@@ -14,16 +14,16 @@ work="$root/build/planted_faults"
 tree="$work/tree"
 objects="$work/objects"
 scene="$tree/tests/agreement/everything.toml"
-# The test files that hold the checks, and what they need; all others are left out, since they would only cost time.
-tests=(tests/CMakeLists.txt tests/main.cpp tests/tier.h tests/tiers.txt tests/support
-  tests/agreement/pictures.h tests/agreement/everything.toml tests/agreement/test_references.cpp
-  tests/agreement/lesson.h tests/agreement/test_lecture_pixels_local.cpp tests/model/test_visibility.cpp)
+# The test files that hold the checks, beside every header; all others are left out, since they would only cost time.
+tests=(tests/CMakeLists.txt tests/main.cpp tests/tiers.txt tests/support tests/agreement/everything.toml
+  tests/agreement/test_references.cpp tests/agreement/test_lecture_pixels_local.cpp tests/model/test_visibility.cpp)
 
 # Makes the copy equal to the source. Only files that differ are written, so that the build sees just those as new; one
 # that an interrupted run left with a fault in it differs, too.
 copy_source() {
   local file
-  (cd -- "$root" && find CMakeLists.txt common raster raytrace viewer scenes "${tests[@]}" -type f) | sort >"$work/files"
+  (cd -- "$root" && find CMakeLists.txt common raster raytrace viewer scenes "${tests[@]}" -type f &&
+    find tests -name '*.h') | sort -u >"$work/files"
   while IFS= read -r file; do
     cmp -s -- "$root/$file" "$tree/$file" && continue
     mkdir -p -- "$(dirname -- "$tree/$file")"
