@@ -195,6 +195,21 @@ TEST_CASE("exit code 3: a size that memory refuses is named") {
                 "65535x65535");
 }
 
+TEST_CASE("exit code 3: with faults on purpose, compare counts the memory of three pairs of pictures") {
+  const Workplace here;
+  const auto gigabytes = [&](const Arguments& faults) {
+    const Outcome outcome = here.run(Arguments{"compare", "good.toml", "-o", "out", "-r", "65535x65535"} + faults);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 3);
+    std::smatch found;
+    REQUIRE(std::regex_search(outcome.err, found, std::regex("needs ([0-9.]+) GB")));
+    return std::stod(found[1]);
+  };
+  const double one_pair = gigabytes({});
+  // Printed to a tenth: 0.05 of our own and three times 0.05.
+  CHECK(std::abs(gigabytes({"--snap-bits", "4"}) - 3 * one_pair) < 0.21);
+}
+
 TEST_CASE("exit code 5: light beyond what float holds is reported with its pixel and not written") {
   const Workplace here;
   std::string text = kGoodScene;

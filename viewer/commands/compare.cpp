@@ -113,7 +113,7 @@ int run_compare(const CompareFlags& flags) {
   const Renderer& raytrace = *find_renderer("raytrace");
   job.options.layers = raytrace.layers;
   job.options.keep_samples = true;
-  check_memory(job);
+  check_memory(job, job.options.faults.any() ? kSpoiledPairs : 1);
   make_folder(flags.folder);
 
   const TimedFrame rastered = render_all_layers(job, raster);

@@ -21,6 +21,9 @@ struct Spoiled {
   std::vector<char> mask;
 };
 
+// At most this many pairs of pictures are alive at once, the job's own, the exact ones, and those of one fault alone.
+inline constexpr int kSpoiledPairs = 3;
+
 // `rastered` and `traced`: the job's two pictures, with all layers and samples. A pixel is changed where the primitive
 // of a sample, its depth or the colour of either picture is another than without the fault. Not what differs by
 // definition: with tessellated spheres objects are compared, as primitives have other numbers; in float precision

@@ -146,9 +146,9 @@ Job load_job(const JobFlags& flags) {
   return job;
 }
 
-void check_memory(const Job& job) {
-  const auto needed =
-      static_cast<double>(frame_bytes(job.scene.width, job.scene.height, job.camera.n, job.options));
+void check_memory(const Job& job, int pairs) {
+  const double needed =
+      pairs * static_cast<double>(frame_bytes(job.scene.width, job.scene.height, job.camera.n, job.options));
   const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   // Lattice coordinates are ints, with room for 2nW.
   const bool too_fine = std::max(job.scene.width, job.scene.height) > 500'000'000 / job.camera.n;

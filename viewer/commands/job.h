@@ -53,8 +53,8 @@ struct Job {
 Job load_job(const JobFlags& flags);
 
 // Refuses, before anything is allocated, what the machine's memory cannot hold: an InputError that names the size.
-// Counts two frames with the job's options: both pictures, or one and its file.
-void check_memory(const Job& job);
+// Counts `pairs` times two frames with the job's options: both pictures, or one and its file.
+void check_memory(const Job& job, int pairs = 1);
 
 // The settings of the job, for a picture's metadata: scene, hash, size, samples, depth, switches, version.
 Metadata job_metadata(const Job& job, const std::string& renderer);
