@@ -36,12 +36,15 @@ struct Differs {
     if (by_object ? object(faulty_scene, a) != object(exact_scene, b) : a != b) return kSurface;
     return depth && a != kNone && faulty.sample_depth[s] != exact.sample_depth[s] ? kValue : kSame;
   }
-  Change pixel(const Frame& faulty, const Frame& exact, std::size_t i) const {
-    Change change = faulty.color[i] != exact.color[i] ? kValue : kSame;
-    const auto samples = static_cast<std::size_t>(exact.n) * static_cast<std::size_t>(exact.n);
-    for (std::size_t s = i * samples; s < (i + 1) * samples; ++s)
+  Change samples(const Frame& faulty, const Frame& exact, std::size_t i) const {
+    Change change = kSame;
+    const auto per_pixel = static_cast<std::size_t>(exact.n) * static_cast<std::size_t>(exact.n);
+    for (std::size_t s = i * per_pixel; s < (i + 1) * per_pixel; ++s)
       change = std::max(change, sample(faulty, exact, s));
     return change;
+  }
+  Change pixel(const Frame& faulty, const Frame& exact, std::size_t i) const {
+    return std::max(faulty.color[i] != exact.color[i] ? kValue : kSame, samples(faulty, exact, i));
   }
 };
 
@@ -50,9 +53,12 @@ std::vector<char> changed_pixels(const Job& job, const Faults& faults, const Fra
   const Scene& exact_scene = job.untessellated ? *job.untessellated : job.scene;
   const Differs differs{faults.tessellate ? job.scene : exact_scene, exact_scene,
                         faults.tessellate.has_value(), !faults.float_precision};
+  // Facets of one sphere in one colour are no change of either picture; that the two name different ones, is.
+  const Differs apart{job.scene, job.scene, false, true};
   std::vector<char> mask(rastered.pixels());
   for (std::size_t i = 0; i < mask.size(); ++i)
-    mask[i] = std::max(differs.pixel(rastered, exact.rastered, i), differs.pixel(traced, exact.traced, i));
+    mask[i] = std::max({differs.pixel(rastered, exact.rastered, i), differs.pixel(traced, exact.traced, i),
+                        apart.samples(rastered, traced, i)});
   return mask;
 }
 
