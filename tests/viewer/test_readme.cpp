@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What README.md and scenes/README.md tell a reader to type, typed in order; what they show as the answer, the
-// functions they name and the files they point to.
+// What README.md, scenes/README.md and tests/hardcases/README.md tell a reader to type, typed in order; what they show
+// as the answer, the functions they name and the files they point to.
 //
 // A command line begins with "sidelight", or, where its answer follows, with "$ sidelight"; a comment behind it may name
 // the exit code. It is run as it stands but in little: pictures of 64x48, and no window, since there is no display.
@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/tier.h"
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
@@ -94,7 +95,7 @@ void check_commands(const std::string& file, std::size_t least) {
     const Outcome outcome = here.run(arguments);
     CAPTURE(outcome.err);
     CHECK(outcome.code == promised_code(command));
-    check_answer(command.answer, outcome.out);
+    check_answer(command.answer, outcome.out + outcome.err);
   }
 }
 
@@ -120,6 +121,11 @@ TEST_CASE("readme: the commands of scenes/README.md do and print what it says") 
   check_commands("scenes/README.md", 17);
 }
 
+TEST_CASE("readme: the commands of tests/hardcases/README.md do and print what it says") {
+  if (test::tier() == "sanitized") return test::skip_test("answers of pictures of 320x240");
+  check_commands("tests/hardcases/README.md", 14);
+}
+
 TEST_CASE("readme: the scene file in README.md is one") {
   std::string scene;
   bool in_it = false;
@@ -141,6 +147,7 @@ TEST_CASE("readme: the scene file in README.md is one") {
 TEST_CASE("readme: links lead to files") {
   check_links("README.md", 1);
   check_links("scenes/README.md", 30);
+  check_links("tests/hardcases/README.md", 24);
 }
 
 TEST_CASE("readme: the walk names every scene and only functions of the references and what they call") {
