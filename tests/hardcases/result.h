@@ -36,6 +36,8 @@ class HardCase {
     row(what + " >= " + number(bound), number(measured), measured >= bound);
   }
   void holds(const std::string& what, bool truth) const { row(what, truth ? "yes" : "no", truth); }
+  // What this run did not try; a case with nothing but that still lacks a result.
+  void skipped(const std::string& what, const std::string& why) const { write(what, why, "skipped"); }
 
  private:
   static std::string number(double value) {
@@ -47,10 +49,14 @@ class HardCase {
     return value < 1'000'000 ? std::to_string(value) : number(static_cast<double>(value));
   }
 
-  // One write to a file opened for appending: rows of tests that run side by side do not mix.
   void row(const std::string& criterion, const std::string& measured, bool passed) const {
     CHECK_MESSAGE(passed, id_, ": ", criterion, "; measured ", measured);
-    const std::string line = id_ + '\t' + criterion + '\t' + measured + '\t' + (passed ? "pass" : "FAIL") + '\n';
+    write(criterion, measured, passed ? "pass" : "FAIL");
+  }
+
+  // One write to a file opened for appending: rows of tests that run side by side do not mix.
+  void write(const std::string& criterion, const std::string& measured, const std::string& verdict) const {
+    const std::string line = id_ + '\t' + criterion + '\t' + measured + '\t' + verdict + '\n';
     const int file = ::open(SIDELIGHT_BUILD_DIR "/hardcases.tsv", O_WRONLY | O_APPEND | O_CREAT, 0644);
     REQUIRE(file >= 0);
     const auto written = ::write(file, line.data(), line.size());

@@ -2,8 +2,12 @@
 // RVR-2: on dyadic scenes both renderers show, at every sample, the triangle that 128-bit integers find. Ten
 // tessellated spheres, some of which intersect, stand on a ground that reaches behind the eye; most of their
 // triangles are smaller than a pixel. Seen once by a camera whose rays are small integers, so that many run exactly
-// through edges and vertices, and once by one that looks any way.
+// through edges and vertices, and once by one that looks any way. The same for a scanned mesh: a made one, and that of
+// the OBJ file that the environment variable SIDELIGHT_SCAN names.
+#include <cstdlib>
+
 #include "common/scene/build.h"
+#include "common/scene/obj.h"
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/exact_picture.h"
@@ -20,11 +24,17 @@ PolygonMesh placed(PolygonMesh mesh, const glm::dvec3& center, double radius) {
   return mesh;
 }
 
+void add_ground(Scene& scene) {
+  add_mesh(scene, mesh_of({{-12, 0, 12}, {12, 0, 12}, {12, 0, -12}, {-12, 0, -12}}, {{0, 1, 2}, {0, 2, 3}}), {}, {});
+}
+
+// Rows and columns of a star sphere of about so many triangles: twice as many columns as rows, two triangles a cell.
+std::uint32_t rows_for(double triangles) { return static_cast<std::uint32_t>(std::max(4.0, std::sqrt(triangles / 4))); }
+
 Scene spheres_on_ground(std::uint64_t triangles) {
   Random random(20);
   Scene scene = empty_scene();
-  // rows of `rows` cells, twice as many columns: about 4 rows² triangles a sphere
-  const auto rows = static_cast<std::uint32_t>(std::max(4.0, std::sqrt(static_cast<double>(triangles) / 40)));
+  const std::uint32_t rows = rows_for(static_cast<double>(triangles) / 10);
   for (int i = 0; i < 10; ++i) {
     const double radius = snapped(random.uniform(0.4, 1.1));
     const glm::dvec3 center{random.uniform(-3, 3), radius, random.uniform(-3, 2)};
@@ -32,8 +42,25 @@ Scene spheres_on_ground(std::uint64_t triangles) {
              placed(star_sphere(rows, 2 * rows, 0.05, 100 + static_cast<std::uint64_t>(i)), center, radius),
              {}, {});
   }
-  add_mesh(scene, mesh_of({{-12, 0, 12}, {12, 0, 12}, {12, 0, -12}, {-12, 0, -12}}, {{0, 1, 2}, {0, 2, 3}}),
-           {}, {});
+  add_ground(scene);
+  return scene;
+}
+
+// The largest side of its box becomes 2, and the box's middle stands over the ground's.
+PolygonMesh fitted(PolygonMesh mesh) {
+  glm::dvec3 low(INFINITY), high(-INFINITY);
+  for (const glm::dvec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::dvec3 sides = high - low;
+  const double scale = 2 / std::max({sides.x, sides.y, sides.z});
+  return placed(std::move(mesh), glm::dvec3{0, 1, 2} - scale * (low + high) / 2.0, scale);
+}
+Scene scan_on_ground(const PolygonMesh& scan) {
+  Scene scene = empty_scene();
+  add_mesh(scene, fitted(scan), {}, {});
+  add_ground(scene);
   return scene;
 }
 
@@ -55,11 +82,10 @@ CameraSettings any_way() {
   return settings;
 }
 
-}  // namespace
-
-TEST_CASE("RVR-2: both renderers show what 128-bit integers find") {
+// At every size and by both cameras, as rows that begin with `what`.
+void check_exact(const std::string& what, const Scene& lit) {
   std::uint64_t samples = 0, covered = 0, exactly_on_edges = 0, z_buffer = 0, tracer = 0, depths = 0;
-  const Scene scene = local_only(spheres_on_ground(tier_count("exact_picture_triangles")));
+  const Scene scene = local_only(lit);
   for (const std::string& text : tier_list("exact_picture_sizes"))
     for (const CameraSettings& settings : {straight_ahead(), any_way()}) {
       const PictureSize size = parse_size(text);
@@ -77,12 +103,36 @@ TEST_CASE("RVR-2: both renderers show what 128-bit integers find") {
         }
     }
   const HardCase hard("RVR-2");
-  hard.none("samples where the z-buffer shows another surface than 128-bit integers", z_buffer, samples);
-  hard.none("samples where the tracer shows another surface than 128-bit integers", tracer, samples);
-  hard.none("depths of both beyond the bound of their condition number", depths, 2 * samples);
-  hard.at_least("share of samples that meet a triangle",
+  const std::string of = what + " of " + std::to_string(scene.triangles.size()) + " triangles: ";
+  hard.none(of + "samples where the z-buffer shows another surface than 128-bit integers", z_buffer, samples);
+  hard.none(of + "samples where the tracer shows another surface than 128-bit integers", tracer, samples);
+  hard.none(of + "depths of both beyond the bound of their condition number", depths, 2 * samples);
+  hard.at_least(of + "share of samples that meet a triangle",
                 static_cast<double>(covered) / static_cast<double>(samples), 0.5);
-  hard.at_least("rays exactly through an edge or a vertex", static_cast<double>(exactly_on_edges), 1);
+  hard.at_least(of + "rays exactly through an edge or a vertex", static_cast<double>(exactly_on_edges), 1);
+}
+
+}  // namespace
+
+TEST_CASE("RVR-2: both renderers show what 128-bit integers find") {
+  check_exact("ten spheres", spheres_on_ground(tier_count("exact_picture_triangles")));
+}
+
+TEST_CASE("RVR-2: both renderers show of a scan what 128-bit integers find") {
+  const double triangles = std::min(7e4, static_cast<double>(tier_count("exact_picture_triangles")));
+  const std::uint32_t rows = rows_for(triangles);
+  check_exact("a made scan", scan_on_ground(star_sphere(rows, 2 * rows, 0.02, 7)));
+}
+
+TEST_CASE("RVR-2: the same of a scan from a file") {
+  const char* file = std::getenv("SIDELIGHT_SCAN");
+  if (!file || !*file) {
+    HardCase("RVR-2").skipped("a scan from a file", "SIDELIGHT_SCAN names no OBJ file");
+    return skip_test("SIDELIGHT_SCAN names no OBJ file");
+  }
+  PolygonMesh scan = read_obj(file, false).mesh;
+  for (PolygonMesh::Face& face : scan.faces) face.material = 0;
+  check_exact(std::filesystem::path(file).filename().string(), scan_on_ground(scan));
 }
 
 // One edge of each triangle runs exactly through a sample's ray, or 2^-20 beside it: its ends are s d + t w and
