@@ -11,25 +11,14 @@
 #include <string_view>
 #include <vector>
 
+#include "common/picture/error_measure.h"
 #include "common/picture/image_io.h"
-#include "common/picture/metrics.h"
 
 namespace sidelight {
 
 // Of repeated runs; all of one value where there was one run.
 struct Spread {
   double min = 0, median = 0, max = 0;
-};
-
-// The distance of a picture from another, in linear float.
-struct ErrorMeasure {
-  Metrics metrics;    // max, mean, rms, psnr, non_finite
-  double p999 = 0;    // the 99.9th percentile of |a - b| over channel values
-  double relmse = 0;  // mean of (a - b)² / (b² + 0.01), b the picture that is nearer the truth
-  double depth = 0;   // greatest relative error of a depth where both pictures see the same surface
-};
-struct PictureError {
-  ErrorMeasure whole, covered;  // over all pixels, and over those where either picture meets something
 };
 
 // What an error comes from: rounding with the same samples and model; a model that leaves something out; too few
@@ -45,21 +34,23 @@ struct KnobValue {
 struct BenchPoint {
   std::size_t scene = 0;          // index into BenchResult::scenes
   std::vector<KnobValue> config;  // every knob, in the table's order
-  std::string varied;     // the knob by which it differs from its renderer's default; empty for that itself
+  std::string varied;  // the knobs by which it differs from its renderer's default; empty for that itself
   bool finished = false;  // false: the sweep was interrupted before it; the rest is then not filled
   std::uint64_t mismatches = 0;  // samples whose surface is not the exact one
   std::vector<std::string>
       failures;  // gates and hard cases it fails, in words; empty: it may stand on the front
   bool on_front = false;
 
-  Spread build_ms, frame_ms, cpu_ms;  // frame_ms and cpu_ms: of a frame, scene to finished float picture
-  std::size_t runs = 0;
+  // Of one frame, scene to finished float picture: frame_ms and cpu_ms. Nothing of it where BenchResult::timed is false.
+  Spread build_ms, build_cpu_ms, frame_ms, cpu_ms;
+  std::size_t runs = 0;  // fewer than asked for where the sweep was interrupted
   std::uint64_t rays = 0, fragments = 0, tests = 0;  // of one frame, all kinds of rays together
   double tests_per_ray = 0, nodes_per_ray = 0;
   double peak_memory_mb = 0;
 
   PictureError error;                                            // against the reference image
-  std::array<std::optional<PictureError>, kErrorKinds> by_kind;  // the kinds that apply
+  // By kind, indexed by ErrorKind: empty where it cannot be told, as the sampling error of the reference's own samples.
+  std::array<std::optional<PictureError>, kErrorKinds> by_kind;
 
   Image8 picture,
       difference;  // at the scene's size in the report; the difference enlarged so that it can be seen
@@ -68,13 +59,15 @@ struct BenchPoint {
 
 // The picture that errors are measured against.
 struct ReferenceImage {
-  int n = 1;                  // n x n samples a pixel
+  int n = 0;                  // n x n samples a pixel; 0: the sweep was interrupted before it was finished
+  int depth = 0;              // rays along a path, the eye ray included
+  double cut_weight = 0;      // mean weight of the rays that even this depth did not send
   std::vector<double> steps;  // RMSE between n = 1 and 2, 2 and 4, ...
   double bound = 0;           // it stopped when a step fell below this ...
   bool converged = false;     // ... or because n had reached 16
   double remaining = 0;       // estimate of its own RMSE, from the last two steps
-  std::optional<double>
-      against_brute_force;  // its greatest distance from raytrace-reference, where affordable
+  // RMSE between its picture of one sample a pixel and raytrace-reference's, where that is affordable.
+  std::optional<double> against_brute_force;
   double ms = 0;            // what it took, 0 if it came from the cache
   Image8 picture;
 };
@@ -83,7 +76,7 @@ struct BenchScene {
   std::string path, title, hash;
   int width = 0, height = 0;
   std::uint64_t triangles = 0, spheres = 0, planes = 0;
-  Spread load_ms;
+  Spread load_ms, load_cpu_ms;
   ReferenceImage reference;
 };
 
@@ -94,11 +87,28 @@ struct SceneSummary {
   std::optional<double> equal_time_error;     // and error at its time, as ratio
 };
 
+// Ratios of one kind over several scenes: never an average of errors, whose sizes mean different things.
+struct RatioOverScenes {
+  double geometric_mean = 1;
+  double worst = 1;
+  std::size_t worst_scene = 0;  // index into BenchResult::scenes
+};
+// One configuration against the standard setting, over the scenes in which both are finished: its time and its error
+// divided by the standard's (below 1 is better). Empty where a ratio has no meaning, as 0 / 0.
+struct ConfigOverScenes {
+  std::size_t config = 0;  // points[scene * configs + config] is it
+  std::optional<RatioOverScenes> time, error;
+};
+
 struct BenchResult {
   std::string command, version, machine;  // the machine in words: processor, cores, instruction set
   std::vector<BenchScene> scenes;
-  std::vector<BenchPoint> points;       // scene by scene, in the order of the sweep
+  std::size_t configs = 0;              // the same ones for every scene
+  std::vector<BenchPoint> points;       // scene by scene, in the order of the sweep: scenes * configs
   std::vector<SceneSummary> summaries;  // one a scene
+  std::vector<ConfigOverScenes> over_scenes;                 // one a configuration
+  std::optional<RatioOverScenes> equal_error_speedup, equal_time_error;  // the summaries' over the scenes
+  bool timed = true;  // false: no times were taken (--no-times), so there is no front either
   bool interrupted = false;
 };
 
