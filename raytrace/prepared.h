@@ -2,6 +2,7 @@
 // What the tracer keeps of a scene between frames, and the questions it asks of it.
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "common/model/shading.h"
@@ -18,11 +19,20 @@ class Prepared {
 
   const Scene& scene;
   Needs needs;
-  ShadingTables tables;
+  ShadingTablesOf<float> tables;
+  ShadingTablesOf<double> tables_in_double;   // for reference images
   Bvh bvh;                              // over spheres and triangles
   std::vector<std::uint32_t> planes;    // primitive numbers: infinite, so met one by one
   std::vector<std::uint32_t> solids;    // objects that bound a medium; empty where refraction is off
   std::vector<Bounds> bounds;           // of each solid
+
+  template <class Real>
+  const ShadingTablesOf<Real>& tables_in() const {
+    if constexpr (std::is_same_v<Real, float>)
+      return tables;
+    else
+      return tables_in_double;
+  }
 };
 
 // How triangles are decided: exactly, or as a fault on purpose (visibility_float.h).

@@ -24,6 +24,10 @@ std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& sce
 // options.cancel is raised.
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
+// The same rays with their light in double, for a reference image: only a finished sample is rounded to float, and once
+// more the mean of a pixel's samples.
+Frame render_in_double(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
+
 // The tree of rays behind the sample at lattice position (X, Y), told by the code that render() runs: its root's colour
 // is that sample's, bit for bit.
 RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y);

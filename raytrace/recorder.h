@@ -10,13 +10,14 @@
 
 namespace sidelight::raytrace {
 
+template <class Real>
 struct NoRecorder {
   void begin(const Path&) {}
   void passed(const Hit&) {}
-  void surface(const Hit&, const Surface&, const Vec3<float>&, const Vec3<float>&) {}
-  void light(std::size_t, const LightTerm<float>&, bool, const Hit&) {}
-  void end(const glm::vec3&) {}
-  void counted(const glm::dvec3&, float) {}
+  void surface(const Hit&, const Surface&, const Vec3<Real>&, const Vec3<Real>&) {}
+  void light(std::size_t, const LightTerm<Real>&, bool, const Hit&) {}
+  void end(const glm::vec<3, Real>&) {}
+  void counted(const glm::dvec3&, Real) {}
   void not_sent(const Path&, const glm::dvec3&) {}
 };
 

@@ -10,15 +10,16 @@
 namespace sidelight::raytrace {
 namespace {
 
-Sample to_sample(const Traced& traced) {
+template <class Real>
+Sample to_sample(const Traced<Real>& traced) {
   Sample sample;
-  sample.color = traced.color;
-  sample[Layer::ambient] = traced.ambient;
-  sample[Layer::diffuse] = traced.diffuse;
-  sample[Layer::specular] = traced.specular;
-  sample[Layer::shadow] = traced.shadow;
-  sample[Layer::reflection] = traced.mirrored;
-  sample[Layer::refraction] = traced.refracted;
+  sample.color = glm::vec3(traced.color);
+  sample[Layer::ambient] = glm::vec3(traced.ambient);
+  sample[Layer::diffuse] = glm::vec3(traced.diffuse);
+  sample[Layer::specular] = glm::vec3(traced.specular);
+  sample[Layer::shadow] = glm::vec3(traced.shadow);
+  sample[Layer::reflection] = glm::vec3(traced.mirrored);
+  sample[Layer::refraction] = glm::vec3(traced.refracted);
   if (!traced.hit.found()) return sample;
   sample.object = 1 + traced.object;
   sample.primitive = 1 + traced.hit.primitive;
@@ -34,11 +35,12 @@ Path eye_path(const Camera& camera, const Media& eye_media, int X, int Y) {
   return path;
 }
 
+template <class Real>
 void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media, const Faults& faults, int y,
                Frame& frame, RenderStats& stats) {
   const int n = camera.n;
-  NoRecorder nothing;
-  Whitted whitted(prepared, stats, nothing, faults);
+  NoRecorder<Real> nothing;
+  Whitted<Real, NoRecorder<Real>> whitted(prepared, stats, nothing, faults);
   PixelWriter pixel(frame, camera.depth_scale());
   for (int x = frame.window.x0; x < frame.window.x1; ++x) {
     for (int Y = n * y; Y < n * (y + 1); ++Y)
@@ -61,7 +63,10 @@ std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& sce
   return std::make_shared<const Prepared>(scene, needs);
 }
 
-Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
+namespace {
+
+template <class Real>
+Frame render_in(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
   const StandardFloatState nearest_and_denormals;
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);
   const Media eye_media = media_at(prepared, camera.eye);
@@ -70,8 +75,8 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
   std::atomic<int> done{0};
   parallel_for(frame.height(), options.threads, [&](int row, int) {
     if (options.cancel && *options.cancel) throw Interrupted();
-    trace_row(prepared, camera, eye_media, options.faults, frame.window.y0 + row, frame,
-              stats[static_cast<std::size_t>(row)]);
+    trace_row<Real>(prepared, camera, eye_media, options.faults, frame.window.y0 + row, frame,
+                    stats[static_cast<std::size_t>(row)]);
     if (options.progress) options.progress(static_cast<double>(++done) / frame.height());
   });
   for (const RenderStats& s : stats) {
@@ -82,11 +87,20 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
   return frame;
 }
 
+}  // namespace
+
+Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
+  return render_in<float>(prepared, camera, options);
+}
+Frame render_in_double(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
+  return render_in<double>(prepared, camera, options);
+}
+
 RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y) {
   const StandardFloatState nearest_and_denormals;
   RenderStats stats;
   TreeRecorder recorder;
-  Whitted whitted(prepared, stats, recorder);
+  Whitted<float, TreeRecorder> whitted(prepared, stats, recorder);
   whitted.trace(eye_path(camera, media_at(prepared, camera.eye), X, Y));
   return recorder.root();
 }

@@ -72,7 +72,8 @@ Hit blocker_by(const Prepared& prepared, const Ray& ray, const glm::dvec3* light
 
 }  // namespace
 
-Prepared::Prepared(const Scene& s, const Needs& n) : scene(s), needs(n), tables(make_shading_tables(s, n)) {
+Prepared::Prepared(const Scene& s, const Needs& n)
+    : scene(s), needs(n), tables(make_shading_tables(s, n)), tables_in_double(make_shading_tables<double>(s, n)) {
   std::vector<Box> boxes;
   std::vector<std::uint32_t> items;
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {

@@ -8,23 +8,26 @@
 namespace sidelight::raytrace {
 namespace {
 
-glm::vec3 rgb(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
+template <class Real>
+glm::vec<3, Real> rgb(const Vec3<Real>& v) {
+  return {v.x, v.y, v.z};
+}
 double largest(const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); }
 
 // w(r) = 1 / max(1, q0 + q1 r + q2 r²); a ray that meets nothing has r -> infinity.
-float distance_weight(const Attenuation& q, const Path& path, const Hit& hit) {
-  if (!hit.found()) return q.q1 > 0 || q.q2 > 0 ? 0.0f : static_cast<float>(1 / std::max(1.0, q.q0));
+double distance_weight(const Attenuation& q, const Path& path, const Hit& hit) {
+  if (!hit.found()) return q.q1 > 0 || q.q2 > 0 ? 0 : 1 / std::max(1.0, q.q0);
   const double r = (hit.t - path.start.t) * glm::length(path.ray.direction);
-  return static_cast<float>(1 / std::max(1.0, q.q0 + q.q1 * r + q.q2 * r * r));
+  return 1 / std::max(1.0, q.q0 + q.q1 * r + q.q2 * r * r);
 }
 
 }  // namespace
 
 // color = c1 local + c2 w(r) trace(reflected) + c3 w(r) trace(refracted)
-template <class Recorder>
-Traced Whitted<Recorder>::trace(const Path& arriving) {
+template <class Real, class Recorder>
+Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
   Path path = arriving;
-  Traced out;
+  Traced<Real> out;
   Surface surface;
   recorder_.begin(path);
   // A surface inside a medium that goes on behind it is passed without colour; what the eye itself meets is shaded.
@@ -32,7 +35,7 @@ Traced Whitted<Recorder>::trace(const Path& arriving) {
        hit = nearest(prepared_, path.ray, hit, stats_.signs, precision_)) {
     out.hit = hit;
     if (!hit.found()) {
-      out.color = out.ambient = glm::vec3(scene_.background);
+      out.color = out.ambient = Rgb(scene_.background);
       recorder_.end(out.color);
       return out;
     }
@@ -54,18 +57,18 @@ Traced Whitted<Recorder>::trace(const Path& arriving) {
 }
 
 // color = c1 (ka Ia + sum b_i T_i), shadow = c1 sum (1 - b_i) T_i, and the unshadowed parts.
-template <class Recorder>
-void Whitted<Recorder>::add_local(const Surface& surface, const Ray& ray, Traced& out) {
-  const Vec3<float>& c1 = prepared_.tables.materials[surface.material].local;
-  const ShadingPoint<float> point = shading_point(prepared_.tables, surface, ray);
-  const Vec3<float> ambient = ambient_term<float>(point, prepared_.tables.ambient_light);
+template <class Real, class Recorder>
+void Whitted<Real, Recorder>::add_local(const Surface& surface, const Ray& ray, Traced<Real>& out) {
+  const Vec3<Real>& c1 = tables_.materials[surface.material].local;
+  const ShadingPoint<Real> point = shading_point(tables_, surface, ray);
+  const Vec3<Real> ambient = ambient_term<Real>(point, tables_.ambient_light);
   recorder_.surface(out.hit, surface, c1, ambient);
-  Vec3<float> light = ambient, shadow{}, diffuse{}, specular{};
-  for (std::size_t i = 0; i < prepared_.tables.lights.size(); ++i) {
-    const LightTerm<float> term = light_term<float>(point, prepared_.tables.lights[i]);
+  Vec3<Real> light = ambient, shadow{}, diffuse{}, specular{};
+  for (std::size_t i = 0; i < tables_.lights.size(); ++i) {
+    const LightTerm<Real> term = light_term<Real>(point, tables_.lights[i]);
     diffuse = diffuse + term.diffuse;
     specular = specular + term.specular;
-    const Vec3<float> total = term.total();
+    const Vec3<Real> total = term.total();
     if (total.x == 0 && total.y == 0 && total.z == 0) continue;   // nothing to miss, so no shadow ray
 
     bool b = true;
@@ -91,8 +94,8 @@ void Whitted<Recorder>::add_local(const Surface& surface, const Ray& ray, Traced
 }
 
 // b_i = 0 where this finds something.
-template <class Recorder>
-Hit Whitted<Recorder>::shadow_blocker(const Surface& surface, const Light& light) {
+template <class Real, class Recorder>
+Hit Whitted<Real, Recorder>::shadow_blocker(const Surface& surface, const Light& light) {
   ++stats_.rays.shadow;
   glm::dvec3 from = surface.point;
   if (!shadow_offset_) from += surface.clearance * surface.facing;
@@ -101,8 +104,8 @@ Hit Whitted<Recorder>::shadow_blocker(const Surface& surface, const Light& light
   return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start, precision_);
 }
 
-template <class Recorder>
-void Whitted<Recorder>::add_secondary(const Path& path, const Surface& surface, Traced& out) {
+template <class Real, class Recorder>
+void Whitted<Real, Recorder>::add_secondary(const Path& path, const Surface& surface, Traced<Real>& out) {
   const Material& material = scene_.materials[surface.material];
   const glm::dvec3 c2 = scene_.trace.reflection ? material.reflect : glm::dvec3(0);
   const glm::dvec3 c3 = scene_.trace.refraction ? material.refract : glm::dvec3(0);
@@ -144,27 +147,28 @@ void Whitted<Recorder>::add_secondary(const Path& path, const Surface& surface, 
 }
 
 // c w(r) trace(path), or black where the path is too deep or weighs too little.
-template <class Recorder>
-glm::vec3 Whitted<Recorder>::follow(Path path, const glm::dvec3& c) {
-  if (largest(c) == 0) return glm::vec3(0);
+template <class Real, class Recorder>
+glm::vec<3, Real> Whitted<Real, Recorder>::follow(Path path, const glm::dvec3& c) {
+  if (largest(c) == 0) return Rgb(0);
   path.weight *= largest(c);
   if (path.depth >= scene_.trace.depth || path.weight < scene_.trace.contribution_cut) {
     stats_.cut_weight += path.weight;
     recorder_.not_sent(path, c);
-    return glm::vec3(0);
+    return Rgb(0);
   }
   ++path.depth;
   const bool mirror = path.kind == RayKind::mirrored || path.kind == RayKind::internally_reflected;
   ++(mirror ? stats_.rays.reflection : stats_.rays.refraction);
-  const Traced traced = trace(path);
-  const float w = prepared_.needs[Need::secondary_attenuation]
-                      ? distance_weight(scene_.trace.secondary_attenuation, path, traced.hit)
-                      : 1.0f;
+  const Traced<Real> traced = trace(path);
+  const Real w = prepared_.needs[Need::secondary_attenuation]
+                     ? static_cast<Real>(distance_weight(scene_.trace.secondary_attenuation, path, traced.hit))
+                     : Real(1);
   recorder_.counted(c, w);
-  return glm::vec3(c) * (w * traced.color);
+  return Rgb(c) * (w * traced.color);
 }
 
-template class Whitted<NoRecorder>;
-template class Whitted<TreeRecorder>;
+template class Whitted<float, NoRecorder<float>>;
+template class Whitted<double, NoRecorder<double>>;
+template class Whitted<float, TreeRecorder>;
 
 }  // namespace sidelight::raytrace

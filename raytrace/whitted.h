@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The recursion: what light comes back along a ray. Reads like the lecture's pseudo-code; all geometry is asked of
-// prepared.h, all light of common/model.
+// prepared.h, all light of common/model. Geometry is in double; light is in Real: float in every picture, and double in
+// a reference image, which the same rays make.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,44 +16,51 @@ namespace sidelight::raytrace {
 
 // What a ray brings back: color = c1 local + mirrored + refracted. For an eye ray the parts are the terms of the
 // ledger: ambient + diffuse + specular is local light with every light seen, and shadow what is missing from it.
+template <class Real>
 struct Traced {
-  glm::vec3 color{0};
-  glm::vec3 ambient{0}, diffuse{0}, specular{0};
-  glm::vec3 shadow{0}, mirrored{0}, refracted{0};
+  using Rgb = glm::vec<3, Real>;
+  Rgb color{0};
+  Rgb ambient{0}, diffuse{0}, specular{0};
+  Rgb shadow{0}, mirrored{0}, refracted{0};
   Hit hit;
   std::uint32_t object = kNone;
   glm::vec3 normal{0};
 };
 
 // Recorder: NoRecorder or TreeRecorder (recorder.h).
-template <class Recorder>
+template <class Real, class Recorder>
 class Whitted {
  public:
+  using Rgb = glm::vec<3, Real>;
+
   Whitted(const Prepared& prepared, RenderStats& stats, Recorder& recorder, const Faults& faults = {})
       : prepared_(prepared),
         scene_(prepared.scene),
+        tables_(prepared.tables_in<Real>()),
         stats_(stats),
         recorder_(recorder),
         shadow_offset_(faults.shadow_offset),
         precision_(faults.float_precision ? Precision::in_float : Precision::exact) {}
 
-  Traced trace(const Path& path);
+  Traced<Real> trace(const Path& path);
 
  private:
-  void add_local(const Surface& surface, const Ray& ray, Traced& out);
+  void add_local(const Surface& surface, const Ray& ray, Traced<Real>& out);
   Hit shadow_blocker(const Surface& surface, const Light& light);
-  void add_secondary(const Path& path, const Surface& surface, Traced& out);
-  glm::vec3 follow(Path path, const glm::dvec3& c);
+  void add_secondary(const Path& path, const Surface& surface, Traced<Real>& out);
+  Rgb follow(Path path, const glm::dvec3& c);
 
   const Prepared& prepared_;
   const Scene& scene_;
+  const ShadingTablesOf<Real>& tables_;
   RenderStats& stats_;
   Recorder& recorder_;
   std::optional<double> shadow_offset_;   // faults on purpose (faults.h)
   Precision precision_;
 };
 
-extern template class Whitted<NoRecorder>;
-extern template class Whitted<TreeRecorder>;
+extern template class Whitted<float, NoRecorder<float>>;
+extern template class Whitted<double, NoRecorder<double>>;
+extern template class Whitted<float, TreeRecorder>;
 
 }  // namespace sidelight::raytrace

@@ -9,8 +9,9 @@
 namespace sidelight {
 namespace {
 
-Vec3<float> to_float(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+template <class T>
+Vec3<T> rounded(const glm::dvec3& v) {
+  return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
 }
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -25,33 +26,36 @@ double extent(const Scene& scene) {
   return most;
 }
 
-// v = high + low to 48 bits.
+// v = high + low: to 48 bits in float, with nothing low in double.
+template <class T>
 struct Split {
-  Vec3<float> high, low;
+  Vec3<T> high, low;
 };
 
-Split split(const glm::dvec3& v) {
-  const Vec3<float> high = to_float(v);
-  return {high, to_float(v - glm::dvec3(high.x, high.y, high.z))};
+template <class T>
+Split<T> split(const glm::dvec3& v) {
+  const Vec3<T> high = rounded<T>(v);
+  return {high, rounded<T>(v - glm::dvec3(high.x, high.y, high.z))};
 }
 
-ShadingLight<float> shading_light(const Light& light, double scale, bool attenuated) {
-  ShadingLight<float> out;
+template <class T>
+ShadingLight<T> shading_light(const Light& light, double scale, bool attenuated) {
+  ShadingLight<T> out;
   out.attenuated = attenuated && !light.directional;
-  const auto array = [](const Vec3<float>& v) { return std::array<float, 3>{v.x, v.y, v.z}; };
-  out.intensity = array(to_float(light.intensity));
+  const auto array = [](const Vec3<T>& v) { return std::array<T, 3>{v.x, v.y, v.z}; };
+  out.intensity = array(rounded<T>(light.intensity));
   out.directional = light.directional;
   if (light.directional) {
-    out.high = array(to_float(-light.direction));
+    out.high = array(rounded<T>(-light.direction));
     return out;
   }
-  const Split position = split(scale * light.position);
+  const Split<T> position = split<T>(scale * light.position);
   out.high = array(position.high);
   out.low = array(position.low);
   // f(d) of the scaled distance: a power of two, so nothing is rounded
-  out.q0 = static_cast<float>(light.attenuation.q0);
-  out.q1 = static_cast<float>(light.attenuation.q1 / scale);
-  out.q2 = static_cast<float>(light.attenuation.q2 / scale / scale);
+  out.q0 = static_cast<T>(light.attenuation.q0);
+  out.q1 = static_cast<T>(light.attenuation.q1 / scale);
+  out.q2 = static_cast<T>(light.attenuation.q2 / scale / scale);
   return out;
 }
 
@@ -63,33 +67,41 @@ void put(ShadingBatch::Rgb& to, std::size_t i, const Vec3<float>& v) {
 
 }  // namespace
 
-ShadingTables make_shading_tables(const Scene& scene, const Needs& needs) {
-  ShadingTables tables;
+template <class T>
+ShadingTablesOf<T> make_shading_tables(const Scene& scene, const Needs& needs) {
+  ShadingTablesOf<T> tables;
   const double most = extent(scene);
   tables.length_scale = most > 0 ? std::exp2(-std::ilogb(most)) : 1;
-  tables.ambient_light = to_float(scene.ambient);
+  tables.ambient_light = rounded<T>(scene.ambient);
   for (const Material& m : scene.materials)
-    tables.materials.push_back({to_float(m.ambient), to_float(m.diffuse), to_float(m.specular), to_float(m.local),
-                                to_float(m.reflect), to_float(m.refract), static_cast<float>(m.shininess)});
+    tables.materials.push_back({rounded<T>(m.ambient), rounded<T>(m.diffuse), rounded<T>(m.specular),
+                                rounded<T>(m.local), rounded<T>(m.reflect), rounded<T>(m.refract),
+                                static_cast<T>(m.shininess)});
   if (!needs[Need::live_lights]) return tables;
   for (const Light& light : scene.lights)
-    tables.lights.push_back(shading_light(light, tables.length_scale, needs[Need::light_attenuation]));
+    tables.lights.push_back(shading_light<T>(light, tables.length_scale, needs[Need::light_attenuation]));
   return tables;
 }
 
-ShadingPoint<float> shading_point(const ShadingTables& tables, const Surface& surface, const Ray& ray) {
-  const ShadingMaterial& material = tables.materials[surface.material];
-  const Split position = split(tables.length_scale * surface.point);
+template <class T>
+ShadingPoint<T> shading_point(const ShadingTablesOf<T>& tables, const Surface& surface, const Ray& ray) {
+  const ShadingMaterialOf<T>& material = tables.materials[surface.material];
+  const Split<T> position = split<T>(tables.length_scale * surface.point);
   return {position.high,
           position.low,
-          to_float(surface.normal),
-          to_float(surface.facing),
-          to_float(-glm::normalize(ray.direction)),
+          rounded<T>(surface.normal),
+          rounded<T>(surface.facing),
+          rounded<T>(-glm::normalize(ray.direction)),
           material.ambient,
           material.diffuse,
           material.specular,
           material.shininess};
 }
+
+template ShadingTablesOf<float> make_shading_tables(const Scene&, const Needs&);
+template ShadingTablesOf<double> make_shading_tables(const Scene&, const Needs&);
+template ShadingPoint<float> shading_point(const ShadingTablesOf<float>&, const Surface&, const Ray&);
+template ShadingPoint<double> shading_point(const ShadingTablesOf<double>&, const Surface&, const Ray&);
 
 void ShadingBatch::add(const ShadingPoint<float>& point, const ShadingMaterial& material) {
   const auto i = static_cast<std::size_t>(size++);

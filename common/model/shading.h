@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From surfaces to light: the scene's materials and lights as the float kernel reads them, and the z-buffer's shading
-// of many visible points at once. phong.h has the model itself; this is where double ends and float begins.
+// From surfaces to light: the scene's materials and lights as the kernel reads them, in float or double, and the
+// z-buffer's shading of many visible points at once. phong.h has the model itself; this is where double ends and, in
+// every picture but a reference image, float begins.
 #pragma once
 
 #include <array>
@@ -16,23 +17,30 @@
 
 namespace sidelight {
 
-struct ShadingMaterial {
-  Vec3<float> ambient, diffuse, specular;   // ka, kd, ks
-  Vec3<float> local, reflect, refract;      // c1, c2, c3
-  float shininess = 1;
+template <class T>
+struct ShadingMaterialOf {
+  Vec3<T> ambient, diffuse, specular;   // ka, kd, ks
+  Vec3<T> local, reflect, refract;      // c1, c2, c3
+  T shininess = 1;
 };
+using ShadingMaterial = ShadingMaterialOf<float>;
 
-struct ShadingTables {
+template <class T>
+struct ShadingTablesOf {
   double length_scale = 1;   // a power of two that brings the scene's extent near 1, so that no square leaves float
-  Vec3<float> ambient_light;
-  std::vector<ShadingMaterial> materials;
-  std::vector<ShadingLight<float>> lights;   // none where no light is live
+  Vec3<T> ambient_light;
+  std::vector<ShadingMaterialOf<T>> materials;
+  std::vector<ShadingLight<T>> lights;   // none where no light is live
 };
+using ShadingTables = ShadingTablesOf<float>;
 
-ShadingTables make_shading_tables(const Scene& scene, const Needs& needs);
+// T: float, or double for a reference image.
+template <class T = float>
+ShadingTablesOf<T> make_shading_tables(const Scene& scene, const Needs& needs);
 
 // The point as the kernel wants it, seen along `ray`.
-ShadingPoint<float> shading_point(const ShadingTables& tables, const Surface& surface, const Ray& ray);
+template <class T>
+ShadingPoint<T> shading_point(const ShadingTablesOf<T>& tables, const Surface& surface, const Ray& ray);
 
 // Up to kCapacity visible points in structure-of-arrays form, and what the local model makes of them.
 struct ShadingBatch {
