@@ -56,6 +56,7 @@ void FaultyTile::draw(const Scene& scene, std::uint32_t primitive, SignCounts& c
                                 : intersect(scene, primitive, ray, start, counts);
       Sample& sample = samples_[index(X, Y)];
       ++sample.tests;
+      if (hit.found()) ++counts.fragments;
       if (hit.found() && hit.t <= stored_.farthest() && wins(hit, sample.nearest)) sample.nearest = hit;
     }
 }

@@ -33,7 +33,7 @@ void DepthTile<Recorder>::draw(const Scene& scene, std::uint32_t primitive, Sign
   for (int Y = box.y0; Y < box.y1; ++Y)
     for (int X = box.x0; X < box.x1; ++X) {
       const Hit hit = intersect(scene, primitive, {camera_.eye, direction(X, Y)}, kRayStart, counts);
-      if (hit.found()) keep(X, Y, hit);
+      if (hit.found()) keep(X, Y, hit, counts);
     }
 }
 
@@ -52,7 +52,7 @@ void DepthTile<Recorder>::draw_triangle(const Scene& scene, std::uint32_t primit
     for (int X = box.x0; X < box.x1; ++X) {
       const glm::dvec3 d = direction(X, Y);
       ++counts.tests;
-      if (edge_agreement(view, d, counts) == side) keep(X, Y, {triangle_depth(view, plane, d), primitive});
+      if (edge_agreement(view, d, counts) == side) keep(X, Y, {triangle_depth(view, plane, d), primitive}, counts);
     }
 }
 

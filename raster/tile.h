@@ -48,7 +48,8 @@ class DepthTile {
     return (columns_[static_cast<std::size_t>(X - samples_.x0)] + rows_[static_cast<std::size_t>(Y - samples_.y0)]) +
            axis_;
   }
-  void keep(int X, int Y, const Hit& hit) {
+  void keep(int X, int Y, const Hit& hit, SignCounts& counts) {
+    ++counts.fragments;
     Hit& nearest = nearest_[index(X, Y)];
     const bool kept = before(hit, nearest);
     if (kept) nearest = hit;

@@ -56,10 +56,11 @@ Bvh build_bvh(std::span<const Box> boxes, std::span<const std::uint32_t> items);
 // Calls leaf(item, limit) for every item whose padded box the ray may meet at a depth <= limit, nearer children first.
 // leaf returns the new limit; a negative one ends the traversal. The pad covers the rounding of v - o and of sphere
 // roots (64 u of all coordinates involved), the slack on the limit that of a depth (visibility.h: 2^-18): no hit that
-// visibility.h would report is lost.
+// visibility.h would report is lost. Returns the number of nodes entered.
 template <class Leaf>
-void traverse(const Bvh& bvh, const Ray& ray, double limit, const Leaf& leaf) {
-  if (bvh.nodes.empty()) return;
+std::uint64_t traverse(const Bvh& bvh, const Ray& ray, double limit, const Leaf& leaf) {
+  std::uint64_t entered = 0;
+  if (bvh.nodes.empty()) return entered;
   const glm::dvec3 inverse = 1.0 / ray.direction;
   const double reach = std::max({bvh.reach, std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
   const double pad = 64 * 0x1p-53 * reach;
@@ -90,11 +91,12 @@ void traverse(const Bvh& bvh, const Ray& ray, double limit, const Leaf& leaf) {
   while (size > 0) {
     const Entry top = stack[static_cast<std::size_t>(--size)];
     if (top.near > limit * (1 + 0x1p-16)) continue;
+    ++entered;
     const BvhNode& node = bvh.nodes[top.node];
     if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         limit = leaf(bvh.items[i], limit);
-        if (limit < 0) return;
+        if (limit < 0) return entered;
       }
       continue;
     }
@@ -104,6 +106,7 @@ void traverse(const Bvh& bvh, const Ray& ray, double limit, const Leaf& leaf) {
     if (std::isfinite(farther.near)) stack[static_cast<std::size_t>(size++)] = farther;
     if (std::isfinite(nearer.near)) stack[static_cast<std::size_t>(size++)] = nearer;
   }
+  return entered;
 }
 
 }  // namespace sidelight::raytrace

@@ -34,20 +34,20 @@ bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
 
 // All primitives that may be met at a depth <= limit: visit(primitive, limit) returns the new limit, negative to stop.
 template <class Visit>
-void candidates(const Prepared& prepared, const Ray& ray, double limit, const Visit& visit) {
+void candidates(const Prepared& prepared, const Ray& ray, double limit, SignCounts& counts, const Visit& visit) {
   if (!is_finite(ray)) return;   // it meets nothing, but no box would turn it away
   for (const std::uint32_t primitive : prepared.planes) {
     limit = visit(primitive, limit);
     if (limit < 0) return;
   }
-  traverse(prepared.bvh, ray, limit, visit);
+  counts.nodes += traverse(prepared.bvh, ray, limit, visit);
 }
 
 // intersect_one: intersect, or intersect_in_float.
 template <auto intersect_one>
 Hit nearest_by(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts) {
   Hit best;
-  candidates(prepared, ray, best.t, [&](std::uint32_t primitive, double) {
+  candidates(prepared, ray, best.t, counts, [&](std::uint32_t primitive, double) {
     const Hit hit = intersect_one(prepared.scene, primitive, ray, after, counts);
     if (hit.found() && before(hit, best)) best = hit;
     return best.t;
@@ -60,7 +60,7 @@ Hit blocker_by(const Prepared& prepared, const Ray& ray, const glm::dvec3* light
                SignCounts& counts) {
   Hit found;
   const double limit = light ? 1 : std::numeric_limits<double>::infinity();
-  candidates(prepared, ray, limit, [&](std::uint32_t primitive, double current) {
+  candidates(prepared, ray, limit, counts, [&](std::uint32_t primitive, double current) {
     if (!casts_shadow(prepared.scene, primitive)) return current;
     const Hit hit = intersect_one(prepared.scene, primitive, ray, start, counts);
     if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return current;
@@ -108,7 +108,7 @@ Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, S
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,
                               SignCounts& counts) {
   std::vector<Hit> hits;
-  candidates(prepared, ray, last_t, [&](std::uint32_t primitive, double limit) {
+  candidates(prepared, ray, last_t, counts, [&](std::uint32_t primitive, double limit) {
     Hit hit = intersect(prepared.scene, primitive, ray, kRayStart, counts);
     while (hit.found() && hit.t <= last_t) {   // a sphere may be met twice
       if (!before(hit, from)) hits.push_back(hit);

@@ -32,6 +32,11 @@ std::string setting(const Faults& faults, FaultKind fault) {
 
 }  // namespace
 
+void Faults::set_usual_planes(double distance) {
+  near_plane = 1e-3 * distance;
+  far_plane = 1e3 * distance;
+}
+
 bool Faults::has(FaultKind fault) const {
   switch (fault) {
     case FaultKind::shadow_offset:

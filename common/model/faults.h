@@ -38,6 +38,10 @@ struct Faults {
   // Both: triangles are decided in float, without filter and fallback (visibility_float.h).
   bool float_precision = false;
 
+  // Sets the planes of a depth format to what they are unless the user says otherwise: 1e-3 and 1e3 times the eye's
+  // distance to what it looks at.
+  void set_usual_planes(double distance);
+
   bool has(FaultKind fault) const;
   bool any() const;
   // The same with all other faults off.

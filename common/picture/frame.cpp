@@ -58,6 +58,8 @@ void RenderStats::add_counts(const RenderStats& other) {
   signs.in_double += other.signs.in_double;
   signs.exact += other.signs.exact;
   signs.tests += other.signs.tests;
+  signs.fragments += other.signs.fragments;
+  signs.nodes += other.signs.nodes;
   self_shadowed += other.self_shadowed;
 }
 

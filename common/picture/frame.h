@@ -66,10 +66,13 @@ struct RayCounts {
 };
 
 // The work of visibility: edge and side signs by the level of exactness that decided them, and tests of a ray
-// against a primitive. A z-buffer's test is a primitive tried at a sample that its box covers.
+// against a primitive. A z-buffer's test is a primitive tried at a sample that its box covers; it gives a fragment where
+// the primitive covers the sample. A node is one of the hierarchy that a ray entered.
 struct SignCounts {
   std::uint64_t filtered = 0, in_double = 0, exact = 0;
   std::uint64_t tests = 0;
+  std::uint64_t fragments = 0;   // z-buffer only
+  std::uint64_t nodes = 0;       // ray tracer only
 };
 
 struct RenderStats {

@@ -276,7 +276,7 @@ Scene read_document(const std::string& text, const std::string& path, const Sett
 
   ContentHash hash;
   hash.add(text);
-  for (const std::string& file : files_read) hash.add_file(file);
+  for (const std::string& file : files_read) add_file(hash, file);
   scene.hash = hash.hex();
   return scene;
 }

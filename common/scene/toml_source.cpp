@@ -91,11 +91,7 @@ std::string read_scene_text(const std::string& path) {
   return text;
 }
 
-void ContentHash::add(std::string_view bytes) {
-  for (const char byte : bytes) state_ = (state_ ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-}
-
-void ContentHash::add_file(const std::string& path) {
+void add_file(ContentHash& hash, const std::string& path) {
   std::ifstream file = open(path);
   std::error_code error;
   std::uintmax_t left = std::filesystem::file_size(path, error);
@@ -103,16 +99,10 @@ void ContentHash::add_file(const std::string& path) {
   std::array<char, 65536> block;
   while (left > 0 && file) {
     file.read(block.data(), static_cast<std::streamsize>(std::min<std::uintmax_t>(left, block.size())));
-    add({block.data(), static_cast<std::size_t>(file.gcount())});
+    hash.add({block.data(), static_cast<std::size_t>(file.gcount())});
     left -= static_cast<std::uintmax_t>(file.gcount());
   }
   if (left > 0) throw unreadable(path, "cannot be read to its end");
-}
-
-std::string ContentHash::hex() const {
-  std::array<char, 17> digits;
-  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(state_));
-  return digits.data();
 }
 
 toml::table parse_toml(std::string_view text, const std::string& path) {

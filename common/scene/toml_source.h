@@ -21,6 +21,8 @@
 #define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
+#include "common/content_hash.h"
+
 namespace sidelight::scene_file {
 
 // A parsed value takes up to 40 times its text in memory, so this is the reader's bound on memory too. Meshes that
@@ -33,18 +35,9 @@ inline constexpr int kMaxKeyParts = 16;
 // The whole file. InputError if it is missing, a folder, unreadable or larger than kMaxSceneBytes.
 std::string read_scene_text(const std::string& path);
 
-// FNV-1a, 64 bits (Fowler, Noll and Vo; RFC 9923): names a scene's content, protects nothing.
-class ContentHash {
- public:
-  void add(std::string_view bytes);
-  // Its bytes, as many as its size says: some files of /proc and /sys say 0 and never end. InputError if it cannot be
-  // read.
-  void add_file(const std::string& path);
-  std::string hex() const;                 // 16 digits
-
- private:
-  std::uint64_t state_ = 0xcbf29ce484222325u;
-};
+// Adds a file's bytes, as many as its size says: some files of /proc and /sys say 0 and never end. InputError if it
+// cannot be read.
+void add_file(ContentHash& hash, const std::string& path);
 
 // Valid UTF-8 and TOML 1.0, or an InputError at the line and column where it ceases to be. `path` is for messages.
 toml::table parse_toml(std::string_view text, const std::string& path);

@@ -8,6 +8,7 @@
 
 namespace sidelight {
 
+void add_bench_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, int& exit_code);
 void add_convert_command(CLI::App& app, int& exit_code);
 void add_diff_command(CLI::App& app, int& exit_code);

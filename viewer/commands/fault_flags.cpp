@@ -69,9 +69,9 @@ Faults parse_faults(const FaultFlags& flags, const CameraSettings& camera) {
   if (!flags.depth_format.empty()) {
     const auto at = std::find(kDepthFormatNames.begin(), kDepthFormatNames.end(), flags.depth_format);
     faults.depth_format = static_cast<DepthFormat>(at - kDepthFormatNames.begin());
-    const double distance = glm::distance(camera.eye, camera.look_at);
-    faults.near_plane = flags.near_plane.value_or(1e-3 * distance);
-    faults.far_plane = flags.far_plane.value_or(1e3 * distance);
+    faults.set_usual_planes(glm::distance(camera.eye, camera.look_at));
+    faults.near_plane = flags.near_plane.value_or(faults.near_plane);
+    faults.far_plane = flags.far_plane.value_or(faults.far_plane);
     check_planes(faults);
   }
   faults.snap_bits = flags.snap_bits;

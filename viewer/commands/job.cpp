@@ -2,13 +2,10 @@
 #include "viewer/commands/job.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <cstdio>
-#include <ctime>
 #include <charconv>
+#include <cstdio>
 #include <vector>
 
 #include "common/parallel.h"
@@ -58,15 +55,6 @@ Isa parse_isa_flag(const JobFlags& flags) {
   if (!isa) throw UsageError("--isa wants scalar, avx2 or avx512; got '" + flags.isa + "'");
   if (!machine_has(*isa)) throw UsageError("--isa " + flags.isa + ": this machine does not have it");
   return *isa;
-}
-
-// As one word of a POSIX shell.
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
 }
 
 void apply_trace(const JobFlags& flags, TraceSettings& trace) {
@@ -146,16 +134,17 @@ Job load_job(const JobFlags& flags) {
   return job;
 }
 
-void check_memory(const Job& job, int pairs) {
-  const double needed =
-      pairs * static_cast<double>(frame_bytes(job.scene.width, job.scene.height, job.camera.n, job.options));
+void check_memory(const Job& job, int pairs) { check_memory(job.scene, job.camera.n, job.options, pairs); }
+
+void check_memory(const Scene& scene, int n, const RenderOptions& options, int pairs) {
+  const double needed = pairs * static_cast<double>(frame_bytes(scene.width, scene.height, n, options));
   const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   // Lattice coordinates are ints, with room for 2nW.
-  const bool too_fine = std::max(job.scene.width, job.scene.height) > 500'000'000 / job.camera.n;
+  const bool too_fine = std::max(scene.width, scene.height) > 500'000'000 / n;
   if (needed > 0.8 * machine || too_fine)
-    throw InputError({job.flags.scene, 0, 0},
+    throw InputError({scene.file, 0, 0},
                      fmt::format("a picture of {}x{} with {} samples per pixel needs {:.1f} GB; this machine has {:.1f} GB",
-                                 job.scene.width, job.scene.height, job.flags.spp, needed / 1e9, machine / 1e9));
+                                 scene.width, scene.height, n * n, needed / 1e9, machine / 1e9));
 }
 
 Metadata job_metadata(const Job& job, const std::string& renderer) {
@@ -178,6 +167,14 @@ Metadata job_metadata(const Job& job, const std::string& renderer) {
   return metadata;
 }
 
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 std::string command_line(const Job& job, std::string_view verb) {
   const JobFlags& flags = job.flags;
   std::string line = fmt::format("sidelight {} {}", verb, shell_word(flags.scene));
@@ -189,22 +186,6 @@ std::string command_line(const Job& job, std::string_view verb) {
   if (flags.no_refraction) line += " --no-refraction";
   if (flags.local) line += " --local";
   return line;
-}
-
-double wall_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double cpu_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 }  // namespace sidelight

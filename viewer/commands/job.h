@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/clock.h"
 #include "common/picture/frame.h"
 #include "common/picture/image_io.h"
 #include "common/scene/camera.h"
@@ -55,6 +56,8 @@ Job load_job(const JobFlags& flags);
 // Refuses, before anything is allocated, what the machine's memory cannot hold: an InputError that names the size.
 // Counts `pairs` times two frames with the job's options: both pictures, or one and its file.
 void check_memory(const Job& job, int pairs = 1);
+// The same for n x n samples a pixel of a scene as it stands.
+void check_memory(const Scene& scene, int n, const RenderOptions& options, int pairs = 1);
 
 // The settings of the job, for a picture's metadata: scene, hash, size, samples, depth, switches, version.
 Metadata job_metadata(const Job& job, const std::string& renderer);
@@ -62,11 +65,7 @@ Metadata job_metadata(const Job& job, const std::string& renderer);
 // What to type into a shell to run `verb` on the scene as this job renders it: "sidelight explain scene.toml --spp 4".
 // The crop is left out, since pixels count from the whole picture's corner.
 std::string command_line(const Job& job, std::string_view verb);
-
-// Milliseconds of wall time, and of processor time of all threads, since some fixed moment.
-double wall_ms();
-double cpu_ms();
-// The greatest resident size so far.
-double peak_memory_mb();
+// The text as one word of a POSIX shell.
+std::string shell_word(const std::string& text);
 
 }  // namespace sidelight

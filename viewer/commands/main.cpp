@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
   add_render_command(app, exit_code);
   add_diff_command(app, exit_code);
   add_explain_command(app, exit_code);
+  add_bench_command(app, exit_code);
   add_convert_command(app, exit_code);
   add_info_command(app, exit_code);
 

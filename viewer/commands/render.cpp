@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "viewer/bench/front.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/progress.h"
 #include "viewer/commands/renderers.h"
+#include "viewer/commands/result_json.h"
 
 namespace sidelight {
 namespace {
@@ -44,17 +46,10 @@ LayerMask parse_layers(const RenderFlags& flags, const Renderer& renderer) {
   return mask;
 }
 
-nlohmann::ordered_json spread(std::vector<double> times) {
-  std::sort(times.begin(), times.end());
-  const std::size_t n = times.size();
-  const double median = n % 2 ? times[n / 2] : (times[n / 2 - 1] + times[n / 2]) / 2;
-  return {{"min", times.front()}, {"median", median}, {"max", times.back()}};
-}
-
 std::string stats_json(const Job& job, const Renderer& renderer, const TimedFrame& timed,
                        const std::vector<double>& frame_ms, const std::vector<double>& cpu) {
   const RenderStats& stats = timed.frame.stats;
-  nlohmann::ordered_json frame = spread(frame_ms);
+  nlohmann::ordered_json frame = spread_json(spread_of(frame_ms));
   frame["runs"] = frame_ms.size();
   nlohmann::ordered_json json{
       {"renderer", renderer.name},
@@ -72,7 +67,7 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
       {"load_ms", job.load_ms},
       {"build_ms", timed.build_ms},
       {"frame_ms", frame},
-      {"cpu_ms", spread(cpu)},
+      {"cpu_ms", spread_json(spread_of(cpu))},
       {"rays",
        {{"primary", stats.rays.primary},
         {"shadow", stats.rays.shadow},

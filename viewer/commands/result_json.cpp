@@ -18,4 +18,8 @@ nlohmann::ordered_json metrics_json(const Metrics& m) {
   return json;
 }
 
+nlohmann::ordered_json spread_json(const Spread& spread) {
+  return {{"min", spread.min}, {"median", spread.median}, {"max", spread.max}};
+}
+
 }  // namespace sidelight

@@ -5,11 +5,15 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "common/picture/metrics.h"
+#include "viewer/bench/result.h"
 
 namespace sidelight {
 
 // {max: {value, x, y, channel}, mean, rms, psnr}; channel is "R", "G" or "B", psnr null where the 8-bit pictures are
 // identical.
 nlohmann::ordered_json metrics_json(const Metrics& metrics);
+
+// {min, median, max}
+nlohmann::ordered_json spread_json(const Spread& spread);
 
 }  // namespace sidelight

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/bench/stage.h"
+
+#include <glm/geometric.hpp>
+
+#include "common/scene/tessellate.h"
+
+namespace sidelight {
+
+Stage::Stage(Scene scene, std::atomic<bool>* cancel) : scene_(std::move(scene)), cancel_(cancel) {}
+
+Model Stage::model_of(const Setting& setting) const {
+  if (setting.raster) return {setting.faults.tessellate, 1, 0, true};
+  return {setting.faults.tessellate, setting.depth.value_or(scene_.trace.depth),
+          setting.cut.value_or(scene_.trace.contribution_cut), false};
+}
+
+Stage::Form& Stage::form(std::optional<int> tessellate, bool local) {
+  const auto [at, added] = forms_.try_emplace({tessellate, local});
+  Form& form = at->second;
+  if (!added) return form;
+  form.scene = tessellate ? tessellated(scene_, *tessellate) : scene_;
+  if (local) form.scene.trace.shadows = form.scene.trace.reflection = form.scene.trace.refraction = false;
+  return form;
+}
+
+// What is prepared depends on the scene's shapes and switches; depth and cut are read anew for every frame.
+const raytrace::Prepared& Stage::prepared_for(const Model& model) {
+  Form& it = form(model.tessellate, model.local);
+  if (!it.for_raytrace) it.for_raytrace = raytrace::prepare(it.scene);
+  it.scene.trace.depth = model.depth;
+  it.scene.trace.contribution_cut = model.cut;
+  return *it.for_raytrace;
+}
+
+Frame Stage::render(const Setting& setting, bool keep_samples) {
+  RenderOptions options;
+  options.threads = setting.threads;
+  options.isa = setting.isa;
+  options.faults = setting.faults;
+  if (options.faults.depth_format)
+    options.faults.set_usual_planes(glm::distance(scene_.camera.eye, scene_.camera.look_at));
+  options.keep_samples = keep_samples;
+  options.cancel = cancel_;
+  const Model model = model_of(setting);
+  if (!setting.raster) return raytrace::render(prepared_for(model), camera(setting.n), options);
+  Form& it = form(model.tessellate, false);   // the z-buffer has no use for the switches
+  if (!it.for_raster) it.for_raster = raster::prepare(it.scene);
+  return raster::render(*it.for_raster, camera(setting.n), options);
+}
+
+void Stage::build_again(const Setting& setting) {
+  const Scene& scene = form(setting.faults.tessellate, false).scene;
+  if (setting.raster)
+    raster::prepare(scene, setting.threads);
+  else
+    raytrace::prepare(scene, setting.threads);
+}
+
+Frame Stage::render_in_double(const Model& model, const Camera& camera) {
+  RenderOptions options;
+  options.cancel = cancel_;
+  return raytrace::render_in_double(prepared_for(model), camera, options);
+}
+
+Frame Stage::render_reference(const Model& model, const Camera& camera) {
+  RenderOptions options;
+  options.cancel = cancel_;
+  prepared_for(model);
+  return raytrace::render_reference(form(model.tessellate, model.local).scene, camera, options);
+}
+
+}  // namespace sidelight

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// A loaded scene in all the forms that settings ask for (tessellated, local light only), each prepared once, and the
+// pictures of it: a setting's, and in double those that its errors are measured against.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+
+#include "raster/raster.h"
+#include "raytrace/raytrace.h"
+#include "viewer/bench/knobs.h"
+
+namespace sidelight {
+
+// What a picture is of, apart from its samples and its rounding.
+struct Model {
+  std::optional<int> tessellate;
+  int depth = 1;
+  double cut = 0;
+  bool local = false;   // no shadows, no secondary rays: all that a z-buffer knows
+  auto operator<=>(const Model&) const = default;
+};
+
+class Stage {
+ public:
+  // Rendering throws Interrupted when `cancel`, which may be null, is raised.
+  explicit Stage(Scene scene, std::atomic<bool>* cancel = nullptr);
+
+  const Scene& scene() const { return scene_; }
+  Camera camera(int n) const { return make_camera(scene_.camera, scene_.width, scene_.height, n); }
+  Model model_of(const Setting& setting) const;
+  // The scene in the setting's form: its primitives have other numbers where spheres are tessellated.
+  const Scene& scene_of(const Setting& setting) { return form(setting.faults.tessellate, false).scene; }
+
+  // The setting's picture: its colours, and the primitive and depth of every sample if they are to be kept.
+  Frame render(const Setting& setting, bool keep_samples);
+  // What a renderer does once a scene. Settings with the same key share it.
+  using BuildKey = std::tuple<bool, std::optional<int>>;   // raster, tessellate
+  static BuildKey build_key(const Setting& setting) { return {setting.raster, setting.faults.tessellate}; }
+  void build_again(const Setting& setting);   // for its time only; what is kept stays
+
+  // The ray tracer's picture of the model with light in double.
+  Frame render_in_double(const Model& model, const Camera& camera);
+  // The same by brute force.
+  Frame render_reference(const Model& model, const Camera& camera);
+
+ private:
+  struct Form {
+    Scene scene;
+    std::shared_ptr<const raster::Prepared> for_raster;
+    std::shared_ptr<const raytrace::Prepared> for_raytrace;
+  };
+  Form& form(std::optional<int> tessellate, bool local);
+  const raytrace::Prepared& prepared_for(const Model& model);
+
+  Scene scene_;
+  std::atomic<bool>* cancel_;
+  std::map<std::pair<std::optional<int>, bool>, Form> forms_;
+};
+
+}  // namespace sidelight
