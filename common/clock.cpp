@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/clock.h"
 
+#include <malloc.h>   // malloc_trim
 #include <sys/resource.h>
 
 #include <chrono>
@@ -25,7 +26,13 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-// proc(5): "5" resets the peak resident size to the present one. Where it cannot be written, the peak stays.
-void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
+// proc(5): "5" resets the peak resident size to the present one. Where it cannot be written, the peak stays. Before that
+// the C library gives back what it holds in reserve, which would hide what is asked of it next.
+void reset_peak_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+  std::ofstream("/proc/self/clear_refs") << 5;
+}
 
 }  // namespace sidelight

@@ -20,7 +20,7 @@
 
 namespace sidelight {
 
-inline constexpr double kReferenceBound = 1.0 / 512;   // half a step of 8 bits
+inline constexpr double kReferenceBound = 1.0 / 255;   // one step of 8 bits
 inline constexpr int kMostDepth = 1000;
 inline constexpr double kMostRays = 32;
 

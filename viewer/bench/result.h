@@ -46,7 +46,7 @@ struct BenchPoint {
   std::size_t runs = 0;  // fewer than asked for where the sweep was interrupted
   std::uint64_t rays = 0, fragments = 0, tests = 0;  // of one frame, all kinds of rays together
   double tests_per_ray = 0, nodes_per_ray = 0;
-  double peak_memory_mb = 0;
+  double peak_memory_mb = 0;  // greatest resident size during a frame, with all that the bench itself holds
 
   PictureError error;                                            // against the reference image
   // By kind, indexed by ErrorKind: empty where it cannot be told, as the sampling error of the reference's own samples.

@@ -69,7 +69,6 @@ class SceneSweep {
     for (std::size_t c = 0; c < settings_.size(); ++c) {
       tell("errors", c, settings_.size());
       BenchPoint found = points_[c];
-      reset_peak_memory();
       judge.judge(settings_[c], found);
       points_[c] = std::move(found);
       points_[c].finished = !plan_.timed;

@@ -101,7 +101,7 @@ int run_bench(const BenchFlags& flags) {
 void add_bench_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<BenchFlags>();
   CLI::App* verb = app.add_subcommand("bench", "speed against error: what each setting costs, and what it buys");
-  verb->add_option("SCENE", flags->scenes, "scene files (TOML)")->required()->type_name("...");
+  verb->add_option("SCENE", flags->scenes, "scene files (TOML)")->required()->type_name("");
   verb->add_option("-o,--output", flags->folder, "folder DIR for bench.json and the rest")->required();
   verb->add_option("-r,--resolution", flags->job.size, "picture size WxH, instead of each scene's");
   verb->add_option("--sweep", flags->sweep, "which settings: default, or one knob of those below")->type_name("NAME");
