@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/clock.h"
 
-#include <malloc.h>   // malloc_trim
+#include <malloc.h>  // malloc_trim
 #include <sys/resource.h>
 
 #include <chrono>
@@ -11,7 +11,8 @@
 namespace sidelight {
 
 double wall_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 double cpu_ms() {

@@ -11,7 +11,7 @@ namespace sidelight {
 class ContentHash {
  public:
   void add(std::string_view bytes);
-  std::string hex() const;   // 16 digits
+  std::string hex() const;  // 16 digits
 
  private:
   std::uint64_t state_ = 0xcbf29ce484222325u;

@@ -9,7 +9,8 @@ namespace sidelight {
 namespace {
 
 // What metrics.h does not have, over the channel values that are finite in both pictures.
-void add_distribution(const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth, ErrorMeasure& out) {
+void add_distribution(const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth,
+                      ErrorMeasure& out) {
   std::vector<double> differences;
   differences.reserve(3 * picture.size());
   double sum = 0;
@@ -29,8 +30,8 @@ void add_distribution(const std::vector<glm::vec3>& picture, const std::vector<g
   out.p999 = *at;
 }
 
-ErrorMeasure measure_error(const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth, int width,
-                           int height) {
+ErrorMeasure measure_error(const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth,
+                           int width, int height) {
   ErrorMeasure out;
   out.metrics = measure(picture, truth, width, height);
   add_distribution(picture, truth, out);

@@ -36,17 +36,18 @@ struct Outcome {
 // A child process with its output in files (a pipe that nobody drains would stop it).
 class Process {
  public:
-  // command[0] is looked up in PATH. Starts in `folder`, with neither display variable set.
+  // command[0] is looked up in PATH. Starts in `folder`, with neither display variable set and a cache of its own.
   Process(const Arguments& command, const std::string& folder) {
     std::vector<char*> argv;
     for (const std::string& each : command) argv.push_back(const_cast<char*>(each.c_str()));
     argv.push_back(nullptr);
-    const std::string out = files_ / "out", err = files_ / "err";
+    const std::string out = files_ / "out", err = files_ / "err", cache = files_ / "cache";
     id_ = ::fork();
     REQUIRE(id_ >= 0);
     if (id_ > 0) return;
     ::unsetenv("DISPLAY");
     ::unsetenv("WAYLAND_DISPLAY");
+    ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
     const bool ready =
         redirect(out, STDOUT_FILENO) && redirect(err, STDERR_FILENO) && ::chdir(folder.c_str()) == 0;
     if (ready) ::execvp(argv[0], argv.data());

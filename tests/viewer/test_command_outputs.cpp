@@ -205,7 +205,7 @@ TEST_CASE("output: without times two runs write the same bytes") {
 
 TEST_CASE("help: fits a screen for every verb and its examples run") {
   const Workplace here;
-  for (const char* verb : {"view", "compare", "render", "diff", "explain", "info", "convert"}) {
+  for (const char* verb : {"view", "compare", "render", "diff", "explain", "bench", "info", "convert"}) {
     CAPTURE(verb);
     const Outcome help = here.run({verb, "--help"});
     CHECK(help.code == 0);

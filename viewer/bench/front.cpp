@@ -13,9 +13,10 @@ struct XY {
   double x, y;
 };
 std::optional<double> on_log_lines(std::vector<XY> points, double x) {
-  std::sort(points.begin(), points.end(), [](const XY& a, const XY& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::sort(points.begin(), points.end(),
+            [](const XY& a, const XY& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].x == x) return points[i].y;   // of several there the least
+    if (points[i].x == x) return points[i].y;  // of several there the least
     if (i == 0 || points[i].x < x || points[i - 1].x > x) continue;
     const XY &a = points[i - 1], &b = points[i];
     if (!(a.x > 0 && a.y > 0 && b.y > 0)) return {};
@@ -43,8 +44,8 @@ std::optional<std::size_t> least(std::span<const TimeAndError> points, std::size
   return best;
 }
 
-SceneSummary summarise(std::span<const TimeAndError> points, std::size_t first, std::span<const TimeAndError> front,
-                       bool standard_finished) {
+SceneSummary summarise(std::span<const TimeAndError> points, std::size_t first,
+                       std::span<const TimeAndError> front, bool standard_finished) {
   SceneSummary summary;
   summary.fastest_exact = least(points, first, [](const TimeAndError& a, const TimeAndError& b) {
     return a.time.median < b.time.median;
@@ -78,7 +79,8 @@ void judge_scene(BenchResult& result, std::size_t scene) {
 
 // Over the scenes, of one configuration: quantity(point) divided by the standard setting's.
 template <class Quantity>
-std::optional<RatioOverScenes> config_ratio(const BenchResult& result, std::size_t config, const Quantity& quantity) {
+std::optional<RatioOverScenes> config_ratio(const BenchResult& result, std::size_t config,
+                                            const Quantity& quantity) {
   std::vector<std::optional<double>> ratios;
   for (std::size_t scene = 0; scene < result.scenes.size(); ++scene) {
     const BenchPoint &point = result.points[scene * result.configs + config],
@@ -126,7 +128,8 @@ std::optional<double> error_at_time(std::span<const TimeAndError> front, double 
   return on_log_lines(points, time);
 }
 
-std::optional<RatioOverScenes> ratio_over_scenes(std::span<const std::optional<double>> ratios, bool small_is_bad) {
+std::optional<RatioOverScenes> ratio_over_scenes(std::span<const std::optional<double>> ratios,
+                                                 bool small_is_bad) {
   std::optional<RatioOverScenes> out;
   double logarithms = 0;
   std::size_t count = 0;

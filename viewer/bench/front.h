@@ -17,7 +17,7 @@ namespace sidelight {
 struct TimeAndError {
   Spread time;
   double error = 0;
-  bool valid = true;   // finished, and no gate failed
+  bool valid = true;  // finished, and no gate failed
 };
 
 // Whether the slowest run of a was faster than the fastest of b.
@@ -34,7 +34,8 @@ std::optional<double> error_at_time(std::span<const TimeAndError> front, double 
 
 // Of what has a ratio in at least one scene; the worst is the greatest, or the least where small is bad. A ratio is
 // positive.
-std::optional<RatioOverScenes> ratio_over_scenes(std::span<const std::optional<double>> ratios, bool small_is_bad);
+std::optional<RatioOverScenes> ratio_over_scenes(std::span<const std::optional<double>> ratios,
+                                                 bool small_is_bad);
 
 // Fills on_front, summaries, over_scenes and the ratios over scenes. A point's time is frame_ms, its error the RMSE of
 // the whole picture. The standard setting is the first configuration.

@@ -14,8 +14,8 @@ namespace {
 // objects are compared.
 struct Samples {
   std::uint64_t mismatches = 0;
-  double depth_error = 0;       // relative, the greatest where both see the same
-  std::vector<char> covered;    // one a pixel: something is seen in either
+  double depth_error = 0;     // relative, the greatest where both see the same
+  std::vector<char> covered;  // one a pixel: something is seen in either
 };
 
 Samples compare_samples(const Frame& frame, const std::vector<std::uint32_t>& primitive,
@@ -40,8 +40,8 @@ double gain_for(const ErrorMeasure& error) {
   return std::exp2(std::clamp(std::floor(std::log2(0.5 / error.p999)), 0.0, 24.0));
 }
 
-Image8 difference_picture(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, double gain, int width,
-                          int height) {
+Image8 difference_picture(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, double gain,
+                          int width, int height) {
   std::vector<glm::vec3> out(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) out[i] = static_cast<float>(gain) * glm::abs(a[i] - b[i]);
   return to_image8(out, width, height);
@@ -90,9 +90,10 @@ void PictureJudge::judge(const Setting& setting, BenchPoint& point) {
     return primitive == kNone ? kNone : of.primitive_object[primitive];
   };
   const bool by_object = setting.faults.tessellate.has_value();
-  const Samples samples = compare_samples(frame, exact.primitive, exact.depth, [&](std::uint32_t a, std::uint32_t b) {
-    return by_object ? object(own, a) == object(scene, b) : a == b;
-  });
+  const Samples samples =
+      compare_samples(frame, exact.primitive, exact.depth, [&](std::uint32_t a, std::uint32_t b) {
+        return by_object ? object(own, a) == object(scene, b) : a == b;
+      });
   const auto error_against = [&](const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth) {
     return picture_error(picture, truth, samples.covered, width, height);
   };
@@ -100,7 +101,8 @@ void PictureJudge::judge(const Setting& setting, BenchPoint& point) {
   point.error = error_against(frame.color, reference);
   point.error.whole.depth = point.error.covered.depth = samples.depth_error;
   point.mismatches = samples.mismatches;
-  if (point.mismatches > 0) point.failures.push_back(fmt::format("{} samples show another surface", point.mismatches));
+  if (point.mismatches > 0)
+    point.failures.push_back(fmt::format("{} samples show another surface", point.mismatches));
   if (const std::uint64_t bad = point.error.whole.metrics.non_finite; bad > 0)
     point.failures.push_back(fmt::format("{} values are not finite", bad));
 

@@ -75,30 +75,26 @@ bool set_isa(Setting& setting, const std::string& value) {
 
 constexpr std::optional<ErrorKind> kTimeOnly;
 
-// clang-format off: a table
 const std::array kKnobs{
-  Knob{"renderer", ErrorKind::model, true, true, "raytrace", "", "",
-       "raster or raytrace", set_renderer},
-  Knob{"samples", ErrorKind::sampling, true, true, "1", "4", "4,9,16",
-       "samples a pixel, a square number from 1 to 4096", set_samples},
-  Knob{"depth", ErrorKind::model, false, true, "scene", "1,2,3", "1,2,3,4,6,8,12",
-       "rays along a path, 1 to 1000, or scene", set_depth},
-  Knob{"cut", ErrorKind::model, false, true, "scene", "0.03", "0,0.001,0.01,0.03,0.1,0.3",
-       "the least weight of a ray that is sent, 0 to 1, or scene", set_cut},
-  Knob{"tessellation", ErrorKind::model, true, true, "off", "32", "8,16,32,64,128",
-       "segments of a sphere, an even number from 4 to 1024, or off", set_tessellation},
-  Knob{"precision", ErrorKind::arithmetic, true, true, "exact", "float", "float",
-       "exact or float", set_precision},
-  Knob{"depth-format", ErrorKind::arithmetic, true, false, "exact", "unorm16", "unorm16,unorm24,float,reversed",
-       "exact, unorm16, unorm24, float or reversed", set_depth_format},
-  Knob{"snap-bits", ErrorKind::arithmetic, true, false, "exact", "4", "0,2,4,6,8,12",
-       "binary places of a vertex on the screen, 0 to 16, or exact", set_snap_bits},
-  Knob{"threads", kTimeOnly, true, true, "all", "", "1,2,4",
-       "1 to 1024, or all", set_threads},
-  Knob{"isa", kTimeOnly, true, false, "best", "scalar", "scalar,avx2,avx512",
-       "scalar, avx2, avx512 (if this machine has it) or best", set_isa},
+    Knob{"renderer", ErrorKind::model, true, true, "raytrace", "", "", "raster or raytrace", set_renderer},
+    Knob{"samples", ErrorKind::sampling, true, true, "1", "4", "4,9,16",
+         "samples a pixel, a square number from 1 to 4096", set_samples},
+    Knob{"depth", ErrorKind::model, false, true, "scene", "1,2,3", "1,2,3,4,6,8,12",
+         "rays along a path, 1 to 1000, or scene", set_depth},
+    Knob{"cut", ErrorKind::model, false, true, "scene", "0.03", "0,0.001,0.01,0.03,0.1,0.3",
+         "the least weight of a ray that is sent, 0 to 1, or scene", set_cut},
+    Knob{"tessellation", ErrorKind::model, true, true, "off", "32", "8,16,32,64,128",
+         "segments of a sphere, an even number from 4 to 1024, or off", set_tessellation},
+    Knob{"precision", ErrorKind::arithmetic, true, true, "exact", "float", "float", "exact or float",
+         set_precision},
+    Knob{"depth-format", ErrorKind::arithmetic, true, false, "exact", "unorm16",
+         "unorm16,unorm24,float,reversed", "exact, unorm16, unorm24, float or reversed", set_depth_format},
+    Knob{"snap-bits", ErrorKind::arithmetic, true, false, "exact", "4", "0,2,4,6,8,12",
+         "binary places of a vertex on the screen, 0 to 16, or exact", set_snap_bits},
+    Knob{"threads", kTimeOnly, true, true, "all", "", "1,2,4", "1 to 1024, or all", set_threads},
+    Knob{"isa", kTimeOnly, true, false, "best", "scalar", "scalar,avx2,avx512",
+         "scalar, avx2, avx512 (if this machine has it) or best", set_isa},
 };
-// clang-format on
 
 bool has(const Knob& knob, bool raster) { return raster ? knob.raster : knob.raytrace; }
 
@@ -136,7 +132,7 @@ void add_new(std::vector<Config>& to, const Config& config) {
 
 // One "knob=value,value".
 struct Choice {
-  std::size_t knob;   // in the table
+  std::size_t knob;  // in the table
   std::vector<std::string> values;
 };
 
@@ -149,9 +145,10 @@ Choice parse_choice(const std::string& text) {
   for (const Knob& knob : kKnobs) names.push_back(knob.name);
   const auto at = std::find(names.begin(), names.end(), name);
   if (at == names.end())
-    throw UsageError(fmt::format("--set: there is no knob '{}'; did you mean '{}'? There are {}", printable(name),
-                                 nearest_name(name, names), fmt::join(names, ", ")));
-  Choice choice{static_cast<std::size_t>(at - names.begin()), split(std::string_view(text).substr(equals + 1))};
+    throw UsageError(fmt::format("--set: there is no knob '{}'; did you mean '{}'? There are {}",
+                                 printable(name), nearest_name(name, names), fmt::join(names, ", ")));
+  Choice choice{static_cast<std::size_t>(at - names.begin()),
+                split(std::string_view(text).substr(equals + 1))};
   const Knob& knob = kKnobs[choice.knob];
   for (const std::string& value : choice.values)
     if (!has_value(knob, value))
@@ -161,15 +158,15 @@ Choice parse_choice(const std::string& text) {
 }
 
 std::vector<Choice> parse_choices(const std::vector<std::string>& texts) {
-  std::vector<Choice> choices{{0, {"raytrace", "raster"}}};   // the first is the renderer's
+  std::vector<Choice> choices{{0, {"raytrace", "raster"}}};  // the first is the renderer's
   std::size_t product = 2;
   bool renderer_chosen = false;
   for (const std::string& text : texts) {
     const Choice choice = parse_choice(text);
-    const bool again = choice.knob == 0 ? renderer_chosen
-                                        : std::any_of(choices.begin() + 1, choices.end(), [&](const Choice& each) {
-                                            return each.knob == choice.knob;
-                                          });
+    const bool again = choice.knob == 0
+                           ? renderer_chosen
+                           : std::any_of(choices.begin() + 1, choices.end(),
+                                         [&](const Choice& each) { return each.knob == choice.knob; });
     if (again) throw UsageError(fmt::format("--set names the knob '{}' twice", kKnobs[choice.knob].name));
     product *= choice.values.size();
     if (product > 2 * kMostConfigs)
@@ -211,7 +208,8 @@ Setting setting_of(const Config& config) {
 std::string varied_knobs(const Config& config) {
   std::vector<std::string_view> varied;
   for (std::size_t k = 1; k < kKnobs.size(); ++k)
-    if (config[k].value != kNotThere && config[k].value != kKnobs[k].standard) varied.push_back(kKnobs[k].name);
+    if (config[k].value != kNotThere && config[k].value != kKnobs[k].standard)
+      varied.push_back(kKnobs[k].name);
   return fmt::format("{}", fmt::join(varied, ", "));
 }
 
@@ -224,15 +222,15 @@ std::vector<std::string> sweep_names() {
 std::vector<Config> sweep_configs(const std::string& name) {
   const std::vector<std::string> names = sweep_names();
   if (std::find(names.begin(), names.end(), name) == names.end())
-    throw UsageError(
-        fmt::format("--sweep: there is no sweep '{}'; there are {}", printable(name), fmt::join(names, ", ")));
+    throw UsageError(fmt::format("--sweep: there is no sweep '{}'; there are {}", printable(name),
+                                 fmt::join(names, ", ")));
   std::vector<Config> out{standard_config(false), standard_config(true)};
   for (const bool raster : {false, true})
     for (std::size_t k = 0; k < kKnobs.size(); ++k) {
       const Knob& knob = kKnobs[k];
       if (!has(knob, raster) || (name != "default" && name != knob.name)) continue;
       for (const std::string& value : split(name == "default" ? knob.by_default : knob.sweep)) {
-        if (!has_value(knob, value)) continue;   // an instruction set that this machine lacks
+        if (!has_value(knob, value)) continue;  // an instruction set that this machine lacks
         Config config = standard_config(raster);
         config[k].value = value;
         add_new(out, config);

@@ -17,28 +17,29 @@
 namespace sidelight {
 
 struct Setting {
-  bool raster = false;        // the z-buffer, else the ray tracer
-  int n = 1;                  // n x n samples a pixel
-  std::optional<int> depth;   // else as the scene says, and so for the cut
+  bool raster = false;       // the z-buffer, else the ray tracer
+  int n = 1;                 // n x n samples a pixel
+  std::optional<int> depth;  // else as the scene says, and so for the cut
   std::optional<double> cut;
-  Faults faults;              // the planes of a depth format are not set
-  int threads = 0;            // 0: all
+  Faults faults;    // the planes of a depth format are not set
+  int threads = 0;  // 0: all
   Isa isa = best_isa();
 };
 
 struct Knob {
   std::string_view name;
-  std::optional<ErrorKind> moves;   // the kind of error; none: it moves time only
-  bool raster, raytrace;            // the renderers that have it
-  std::string_view standard;        // its value in the standard setting
-  std::string_view by_default;      // the other values of the default sweep, separated by commas
-  std::string_view sweep;           // and those of its own
-  std::string_view wanted;          // in words, for messages and help
-  bool (*set)(Setting& setting, const std::string& value);   // false: not a value
+  std::optional<ErrorKind> moves;  // the kind of error; none: it moves time only
+  bool raster, raytrace;           // the renderers that have it
+  std::string_view standard;       // its value in the standard setting
+  std::string_view by_default;     // the other values of the default sweep, separated by commas
+  std::string_view sweep;          // and those of its own
+  std::string_view wanted;         // in words, for messages and help
+  bool (*set)(Setting& setting, const std::string& value);  // false: not a value
 };
 std::span<const Knob> knobs();
 
-using Config = std::vector<KnobValue>;   // every knob, in the table's order; kNotThere where the renderer lacks it
+using Config =
+    std::vector<KnobValue>;  // every knob, in the table's order; kNotThere where the renderer lacks it
 inline constexpr std::string_view kNotThere = "-";
 
 Setting setting_of(const Config& config);

@@ -31,8 +31,8 @@ double rmse(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, co
 
 std::string Reference::key(int n) const {
   const Scene& scene = stage_.scene();
-  return fmt::format("reference image, {}, scene {}, {}x{}, {}x{} samples", SIDELIGHT_VERSION, scene.hash, scene.width,
-                     scene.height, n, n);
+  return fmt::format("reference image, {}, scene {}, {}x{}, {}x{} samples", SIDELIGHT_VERSION, scene.hash,
+                     scene.width, scene.height, n, n);
 }
 
 // Tried out on a picture of a quarter of the size each way.
@@ -60,8 +60,8 @@ Reference::Picture Reference::make(int n) {
   const Camera camera = stage_.camera(n);
   Frame frame = stage_.render_in_double(full, camera);
   out.cut_weight = frame.stats.cut_weight;
-  const double tests =
-      rays_an_eye_ray_ * static_cast<double>(frame.pixels()) * static_cast<double>(scene.primitive_object.size());
+  const double tests = rays_an_eye_ray_ * static_cast<double>(frame.pixels()) *
+                       static_cast<double>(scene.primitive_object.size());
   Metadata notes{{"depth", fmt::format("{}", out.depth)}, {"cut_weight", fmt::format("{}", out.cut_weight)}};
   if (n == 1 && tests <= kAffordableTests) {
     out.against_brute_force = rmse(frame.color, stage_.render_reference(full, camera).color, scene);
@@ -75,7 +75,8 @@ Reference::Picture Reference::make(int n) {
 const Reference::Picture& Reference::picture(int n) {
   if (const auto at = pictures_.find(n); at != pictures_.end()) return at->second;
   if (auto kept = cache_.find(key(n), stage_.scene().width, stage_.scene().height)) {
-    Picture out{static_cast<int>(number(kept->notes["depth"])), number(kept->notes["cut_weight"]), {}, kept->color};
+    Picture out{
+        static_cast<int>(number(kept->notes["depth"])), number(kept->notes["cut_weight"]), {}, kept->color};
     if (const std::string& text = kept->notes["against_brute_force"]; !text.empty())
       out.against_brute_force = number(text);
     return pictures_.emplace(n, std::move(out)).first->second;

@@ -20,7 +20,7 @@
 
 namespace sidelight {
 
-inline constexpr double kReferenceBound = 1.0 / 255;   // one step of 8 bits
+inline constexpr double kReferenceBound = 1.0 / 255;  // one step of 8 bits
 inline constexpr int kMostDepth = 1000;
 inline constexpr double kMostRays = 32;
 
@@ -31,7 +31,7 @@ class Reference {
   struct Picture {
     int depth = 0;
     double cut_weight = 0;
-    std::optional<double> against_brute_force;   // of n = 1
+    std::optional<double> against_brute_force;  // of n = 1
     std::vector<glm::vec3> color;
   };
   // The full model with n x n samples, from memory, from the cache, or made.
@@ -50,7 +50,7 @@ class Reference {
   Stage& stage_;
   PictureCache cache_;
   bool made_any_ = false;
-  double rays_an_eye_ray_ = 0;   // at that depth
+  double rays_an_eye_ray_ = 0;  // at that depth
   std::map<int, Picture> pictures_;
 };
 

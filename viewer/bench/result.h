@@ -34,7 +34,7 @@ struct KnobValue {
 struct BenchPoint {
   std::size_t scene = 0;          // index into BenchResult::scenes
   std::vector<KnobValue> config;  // every knob, in the table's order
-  std::string varied;  // the knobs by which it differs from its renderer's default; empty for that itself
+  std::string varied;     // the knobs by which it differs from its renderer's default; empty for that itself
   bool finished = false;  // false: the sweep was interrupted before it; the rest is then not filled
   std::uint64_t mismatches = 0;  // samples whose surface is not the exact one
   std::vector<std::string>
@@ -43,12 +43,12 @@ struct BenchPoint {
 
   // Of one frame, scene to finished float picture: frame_ms and cpu_ms. Nothing of it where BenchResult::timed is false.
   Spread build_ms, build_cpu_ms, frame_ms, cpu_ms;
-  std::size_t runs = 0;  // fewer than asked for where the sweep was interrupted
+  std::size_t runs = 0;                              // fewer than asked for where the sweep was interrupted
   std::uint64_t rays = 0, fragments = 0, tests = 0;  // of one frame, all kinds of rays together
   double tests_per_ray = 0, nodes_per_ray = 0;
   double peak_memory_mb = 0;  // greatest resident size during a frame, with all that the bench itself holds
 
-  PictureError error;                                            // against the reference image
+  PictureError error;  // against the reference image
   // By kind, indexed by ErrorKind: empty where it cannot be told, as the sampling error of the reference's own samples.
   std::array<std::optional<PictureError>, kErrorKinds> by_kind;
 
@@ -68,7 +68,7 @@ struct ReferenceImage {
   double remaining = 0;       // estimate of its own RMSE, from the last two steps
   // RMSE between its picture of one sample a pixel and raytrace-reference's, where that is affordable.
   std::optional<double> against_brute_force;
-  double ms = 0;            // what it took, 0 if it came from the cache
+  double ms = 0;  // what it took, 0 if it came from the cache
   Image8 picture;
 };
 
@@ -103,10 +103,10 @@ struct ConfigOverScenes {
 struct BenchResult {
   std::string command, version, machine;  // the machine in words: processor, cores, instruction set
   std::vector<BenchScene> scenes;
-  std::size_t configs = 0;              // the same ones for every scene
-  std::vector<BenchPoint> points;       // scene by scene, in the order of the sweep: scenes * configs
-  std::vector<SceneSummary> summaries;  // one a scene
-  std::vector<ConfigOverScenes> over_scenes;                 // one a configuration
+  std::size_t configs = 0;                    // the same ones for every scene
+  std::vector<BenchPoint> points;             // scene by scene, in the order of the sweep: scenes * configs
+  std::vector<SceneSummary> summaries;        // one a scene
+  std::vector<ConfigOverScenes> over_scenes;  // one a configuration
   std::optional<RatioOverScenes> equal_error_speedup, equal_time_error;  // the summaries' over the scenes
   bool timed = true;  // false: no times were taken (--no-times), so there is no front either
   bool interrupted = false;

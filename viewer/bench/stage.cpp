@@ -44,7 +44,7 @@ Frame Stage::render(const Setting& setting, bool keep_samples) {
   options.cancel = cancel_;
   const Model model = model_of(setting);
   if (!setting.raster) return raytrace::render(prepared_for(model), camera(setting.n), options);
-  Form& it = form(model.tessellate, false);   // the z-buffer has no use for the switches
+  Form& it = form(model.tessellate, false);  // the z-buffer has no use for the switches
   if (!it.for_raster) it.for_raster = raster::prepare(it.scene);
   return raster::render(*it.for_raster, camera(setting.n), options);
 }

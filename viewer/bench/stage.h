@@ -18,7 +18,7 @@ struct Model {
   std::optional<int> tessellate;
   int depth = 1;
   double cut = 0;
-  bool local = false;   // no shadows, no secondary rays: all that a z-buffer knows
+  bool local = false;  // no shadows, no secondary rays: all that a z-buffer knows
   auto operator<=>(const Model&) const = default;
 };
 
@@ -36,9 +36,9 @@ class Stage {
   // The setting's picture: its colours, and the primitive and depth of every sample if they are to be kept.
   Frame render(const Setting& setting, bool keep_samples);
   // What a renderer does once a scene. Settings with the same key share it.
-  using BuildKey = std::tuple<bool, std::optional<int>>;   // raster, tessellate
+  using BuildKey = std::tuple<bool, std::optional<int>>;  // raster, tessellate
   static BuildKey build_key(const Setting& setting) { return {setting.raster, setting.faults.tessellate}; }
-  void build_again(const Setting& setting);   // for its time only; what is kept stays
+  void build_again(const Setting& setting);  // for its time only; what is kept stays
 
   // The ray tracer's picture of the model with light in double.
   Frame render_in_double(const Model& model, const Camera& camera);

@@ -51,14 +51,14 @@ class SceneSweep {
  private:
   void tell(const std::string& what, std::size_t done, std::size_t all) const {
     if (plan_.progress)
-      plan_.progress(fmt::format("{}: {}", printable(scene_.title, 40), what), static_cast<double>(done) / static_cast<double>(all));
+      plan_.progress(fmt::format("{}: {}", printable(scene_.title, 40), what),
+                     static_cast<double>(done) / static_cast<double>(all));
   }
 
   void make_reference() {
     const double start = wall_ms();
-    ReferenceImage image = reference_.converge([&](int n) {
-      tell(fmt::format("reference, {}x{} samples", n, n), 0, 1);
-    });
+    ReferenceImage image =
+        reference_.converge([&](int n) { tell(fmt::format("reference, {}x{} samples", n, n), 0, 1); });
     if (plan_.timed && reference_.made_any()) image.ms = wall_ms() - start;
     image.picture = to_image8(reference_.picture(image.n).color, scene_.width, scene_.height);
     scene_.reference = std::move(image);
@@ -109,14 +109,14 @@ class SceneSweep {
 
   const SweepPlan& plan_;
   BenchScene& scene_;
-  BenchPoint* points_;   // of this scene, one a configuration
+  BenchPoint* points_;  // of this scene, one a configuration
   Stage stage_;
   Reference reference_;
   std::vector<Setting> settings_;
 };
 
 Scene load(const SweepPlan& plan, const std::string& path, BenchScene& out) {
-  Scene scene = load_scene(path);   // the warm-up
+  Scene scene = load_scene(path);  // the warm-up
   Times times;
   for (int run = 0; run < plan.runs && plan.timed; ++run) times.add([&] { scene = load_scene(path); });
   if (plan.size) {

@@ -14,15 +14,15 @@
 namespace sidelight {
 
 struct SweepPlan {
-  std::vector<std::string> scenes;   // files
-  std::optional<glm::ivec2> size;    // instead of each scene's
+  std::vector<std::string> scenes;  // files
+  std::optional<glm::ivec2> size;   // instead of each scene's
   std::vector<Config> configs;
-  int runs = 7;                      // timed ones, after one warm-up
+  int runs = 7;  // timed ones, after one warm-up
   bool timed = true;
   PictureCache cache;
-  std::atomic<bool>* cancel = nullptr;                          // may be null
-  std::function<void(const Scene& scene)> loaded;               // hears of each scene, may refuse it; may be empty
-  std::function<void(const std::string& what, double done)> progress;   // within `what`; may be empty
+  std::atomic<bool>* cancel = nullptr;             // may be null
+  std::function<void(const Scene& scene)> loaded;  // hears of each scene, may refuse it; may be empty
+  std::function<void(const std::string& what, double done)> progress;  // within `what`; may be empty
 };
 
 // Loads all scenes (throws InputError for the first bad one, and what `loaded` throws) and fills all but `command` and what judge() (front.h) adds.

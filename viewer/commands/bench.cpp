@@ -17,7 +17,7 @@ namespace sidelight {
 namespace {
 
 struct BenchFlags {
-  JobFlags job;   // size, quiet, no_times
+  JobFlags job;  // size, quiet, no_times
   std::vector<std::string> scenes, set;
   std::string folder, sweep;
   int runs = 7;
@@ -69,8 +69,15 @@ BenchResult sweep(const BenchFlags& flags, const std::vector<Config>& configs) {
   for (const Config& config : configs) finest = std::max(finest, setting_of(config).n);
 
   StagedProgress progress(flags.job.quiet);
-  SweepPlan plan{flags.scenes, {}, configs, flags.runs, !flags.job.no_times, PictureCache(usual_cache_folder()),
-                 &interrupt_flag(), {}, std::ref(progress)};
+  SweepPlan plan{flags.scenes,
+                 {},
+                 configs,
+                 flags.runs,
+                 !flags.job.no_times,
+                 PictureCache(usual_cache_folder()),
+                 &interrupt_flag(),
+                 {},
+                 std::ref(progress)};
   if (!flags.job.size.empty()) plan.size = parse_size(flags.job.size, "-r");
   plan.loaded = [&](const Scene& scene) {
     check_memory(scene, finest, options);
@@ -100,11 +107,13 @@ int run_bench(const BenchFlags& flags) {
 
 void add_bench_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<BenchFlags>();
-  CLI::App* verb = app.add_subcommand("bench", "speed against error: what each setting costs, and what it buys");
+  CLI::App* verb =
+      app.add_subcommand("bench", "speed against error: what each setting costs, and what it buys");
   verb->add_option("SCENE", flags->scenes, "scene files (TOML)")->required()->type_name("");
   verb->add_option("-o,--output", flags->folder, "folder DIR for bench.json and the rest")->required();
   verb->add_option("-r,--resolution", flags->job.size, "picture size WxH, instead of each scene's");
-  verb->add_option("--sweep", flags->sweep, "which settings: default, or one knob of those below")->type_name("NAME");
+  verb->add_option("--sweep", flags->sweep, "which settings: default, or one knob of those below")
+      ->type_name("NAME");
   verb->add_option("--set", flags->set, "knob=value,value: instead, all products of these; may be repeated")
       ->type_name("K=V,V")
       ->allow_extra_args(false);
@@ -116,16 +125,17 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   verb->add_flag("--no-times", flags->job.no_times, "take no times, so that equal runs give equal files");
   std::string knob_lines;
   for (const Knob& knob : knobs())
-    knob_lines += fmt::format("  {:<13} {} error: {}\n", knob.name,
-                              knob.moves ? kErrorKindNames[static_cast<std::size_t>(*knob.moves)] : "no",
-                              knob.wanted);
-  verb->footer(fmt::format(
-      "Knobs, the kind of error each moves, and its values:\n{}"
-      "Ctrl-C ends it with what is finished. Reference images are kept in ~/.cache/sidelight.\n"
-      "Examples:\n"
-      "  sidelight bench scenes/06-shadows.toml -o out/bench -r 64x48\n"
-      "  sidelight bench scenes/02-diffuse.toml -o out/bench -r 64x48 --set samples=1,4 --set isa=scalar,best",
-      knob_lines));
+    knob_lines +=
+        fmt::format("  {:<13} {} error: {}\n", knob.name,
+                    knob.moves ? kErrorKindNames[static_cast<std::size_t>(*knob.moves)] : "no", knob.wanted);
+  verb->footer(
+      fmt::format("Knobs, the kind of error each moves, and its values:\n{}"
+                  "Ctrl-C ends it with what is finished. Reference images are kept in ~/.cache/sidelight.\n"
+                  "Examples:\n"
+                  "  sidelight bench scenes/06-shadows.toml -o out/bench -r 64x48\n"
+                  "  sidelight bench scenes/02-diffuse.toml -o out/bench -r 64x48 --set samples=1,4 --set "
+                  "isa=scalar,best",
+                  knob_lines));
   verb->callback([flags, &exit_code] { exit_code = run_bench(*flags); });
 }
 

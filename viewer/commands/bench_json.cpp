@@ -18,10 +18,10 @@ Json optional_json(const std::optional<T>& value) {
 
 Json measure_json(const ErrorMeasure& error) {
   const Json metrics = metrics_json(error.metrics);
-  return {{"max", metrics["max"]},       {"p999", error.p999},
-          {"mean", error.metrics.mean},  {"rmse", error.metrics.rms},
-          {"relmse", error.relmse},      {"psnr", metrics["psnr"]},
-          {"depth", error.depth},        {"non_finite", error.metrics.non_finite}};
+  return {{"max", metrics["max"]},      {"p999", error.p999},
+          {"mean", error.metrics.mean}, {"rmse", error.metrics.rms},
+          {"relmse", error.relmse},     {"psnr", metrics["psnr"]},
+          {"depth", error.depth},       {"non_finite", error.metrics.non_finite}};
 }
 
 // Of the whole picture, and within it of covered pixels.
@@ -90,7 +90,8 @@ Json point_json(const BenchResult& result, const BenchPoint& point) {
   json["nodes_per_ray"] = point.nodes_per_ray;
   json["error"] = error_json(point.error);
   for (std::size_t kind = 0; kind < kErrorKinds; ++kind)
-    json[std::string(kErrorKindNames[kind])] = point.by_kind[kind] ? error_json(*point.by_kind[kind]) : Json(nullptr);
+    json[std::string(kErrorKindNames[kind])] =
+        point.by_kind[kind] ? error_json(*point.by_kind[kind]) : Json(nullptr);
   return json;
 }
 
@@ -105,7 +106,9 @@ Json summary_json(const SceneSummary& summary) {
 
 Json ratio_json(const std::optional<RatioOverScenes>& ratio) {
   if (!ratio) return nullptr;
-  return {{"geometric_mean", ratio->geometric_mean}, {"worst", ratio->worst}, {"worst_scene", ratio->worst_scene}};
+  return {{"geometric_mean", ratio->geometric_mean},
+          {"worst", ratio->worst},
+          {"worst_scene", ratio->worst_scene}};
 }
 
 Json over_scenes_json(const BenchResult& result) {
@@ -135,7 +138,8 @@ std::string bench_json(const BenchResult& result) {
   }
   for (const BenchPoint& point : result.points) json["points"].push_back(point_json(result, point));
   json["summary"] = {{"scenes", Json::array()}};
-  for (const SceneSummary& summary : result.summaries) json["summary"]["scenes"].push_back(summary_json(summary));
+  for (const SceneSummary& summary : result.summaries)
+    json["summary"]["scenes"].push_back(summary_json(summary));
   json["summary"]["over_scenes"] = over_scenes_json(result);
   return json.dump(2) + "\n";
 }

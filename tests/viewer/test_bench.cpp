@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// sidelight bench as its users meet it: bench.json with the names that others rely on, the same bytes without times, what
+// is left after Ctrl-C.
+#include <nlohmann/json.hpp>
+
+#include "tests/viewer/program.h"
+
+using namespace sidelight;
+using namespace sidelight::testing;
+using nlohmann::json;
+
+namespace {
+
+json read_json(const Workplace& here, const std::string& name) {
+  return json::parse(read_bytes(here / name));
+}
+
+bool ordered(const json& spread) {
+  return 0 <= spread["min"] && spread["min"] <= spread["median"] && spread["median"] <= spread["max"];
+}
+
+void check_error(const json& error) {
+  for (const char* name : {"p999", "mean", "rmse", "relmse"}) CHECK(error[name] >= 0.0);
+  CHECK((error["psnr"].is_null() || error["psnr"] > 0));
+  CHECK(error["max"]["value"] >= error["p999"]);
+  CHECK(error["rmse"] <= error["max"]["value"]);
+}
+
+}  // namespace
+
+TEST_CASE("bench: bench.json has the names that others rely on") {
+  const Workplace here;
+  const Outcome outcome = here.run({"bench", "good.toml", "scenes/02-diffuse.toml", "-r", "24x18", "-o",
+                                    "out", "-q", "--set", "samples=1,4"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  const json result = read_json(here, "out/bench.json");
+  CHECK_FALSE(result["interrupted"].get<bool>());
+  CHECK(result["machine"].is_string());
+  REQUIRE(result["scenes"].size() == 2);
+  CHECK(result["scenes"][0]["path"] == "good.toml");
+  CHECK((result["scenes"][0]["width"] == 24 && result["scenes"][0]["height"] == 18));
+  CHECK(ordered(result["scenes"][0]["load_ms"]));
+  REQUIRE(result["reference"].size() == 2);
+  for (const json& reference : result["reference"]) {
+    CHECK(reference["samples"] >= 4);
+    CHECK(reference["remaining"] >= 0.0);
+    CHECK(reference["against_brute_force"] < 1e-6);
+  }
+  REQUIRE(result["points"].size() == 8);  // two scenes, two renderers, two numbers of samples
+  bool any_on_front = false;
+  for (const json& point : result["points"]) {
+    CHECK((point["scene"] == "good.toml" || point["scene"] == "scenes/02-diffuse.toml"));
+    CHECK((point["config"]["renderer"] == "raytrace" || point["config"]["renderer"] == "raster"));
+    CHECK(point["config"]["isa"].is_string());
+    CHECK(point["finished"].get<bool>());
+    CHECK(point["valid"].get<bool>());
+    any_on_front = any_on_front || point["on_front"].get<bool>();
+    CHECK(point["mismatches"] == 0);
+    CHECK(point["runs"] == 7);
+    CHECK(ordered(point["time_ms"]["build"]));
+    CHECK(ordered(point["time_ms"]["frame"]));
+    CHECK(ordered(point["cpu_ms"]["frame"]));
+    check_error(point["error"]);
+    check_error(point["error"]["covered"]);
+    check_error(point["arithmetic"]);
+    check_error(point["model"]);
+    CHECK(point["sampling"]["rmse"] > 0.0);
+    const bool traced = point["config"]["renderer"] == "raytrace";
+    CHECK((point["rays"] > 0) == traced);
+    CHECK((point["nodes_per_ray"] > 0) == traced);
+    CHECK((point["fragments"] > 0) == !traced);
+    CHECK(point["peak_memory_mb"] > 0);
+  }
+  CHECK(any_on_front);
+  REQUIRE(result["summary"]["scenes"].size() == 2);
+  CHECK(result["summary"]["scenes"][1]["standard"] == 4);
+  CHECK(result["summary"]["over_scenes"]["configs"].size() == 4);
+}
+
+TEST_CASE("bench: without times equal runs give equal bytes, from the cache or not") {
+  const Workplace here;
+  const auto run = [&](const std::string& folder) {
+    const Outcome outcome = here.run_in_shell(
+        "XDG_CACHE_HOME=$PWD/cache exec \"$0\" \"$@\"",
+        {"bench", "good.toml", "-r", "24x18", "-o", folder, "--no-times", "--sweep", "depth"});
+    CHECK(outcome.code == 0);
+    return read_bytes(here / (folder + "/bench.json"));
+  };
+  const std::string first = run("first");
+  CHECK(std::filesystem::exists(here / "cache/sidelight"));
+  CHECK(run("second") == first);
+  std::filesystem::remove_all(here / "cache");
+  CHECK(run("third") == first);
+  const json result = json::parse(first);
+  for (const json& point : result["points"]) {
+    CHECK(point["finished"].get<bool>());
+    CHECK(point["on_front"].is_null());
+    CHECK_FALSE(point.contains("time_ms"));
+  }
+  CHECK(first.find("_ms") == std::string::npos);
+}
+
+TEST_CASE("bench: interrupted, it keeps and marks what was finished") {
+  const Workplace here;
+  Process process(
+      {SIDELIGHT_BINARY, "bench", "good.toml", "-r", "64x48", "--runs", "100000", "-q", "-o", "out"},
+      here / ".");
+  process.await_handler(SIGINT);
+  // In the middle of its 100,000 runs: the reference image is there, and the errors.
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  process.send(SIGINT);
+  const Outcome outcome = process.wait();
+  CHECK(outcome.code == 130);
+  CHECK(lines(outcome.err).size() == 1);
+  const json result = read_json(here, "out/bench.json");
+  CHECK(result["interrupted"].get<bool>());
+  for (const json& point : result["points"])
+    if (point["finished"].get<bool>()) CHECK(point["runs"] >= 1);
+}
+
+TEST_CASE("bench: interrupted at once, it says so and has nothing to show") {
+  const Workplace here;
+  Process process({SIDELIGHT_BINARY, "bench", "good.toml", "-r", "2000x1500", "-q", "-o", "out"}, here / ".");
+  process.await_handler(SIGTERM);
+  process.send(SIGTERM);
+  CHECK(process.wait().code == 130);
+  const json result = read_json(here, "out/bench.json");
+  CHECK(result["interrupted"].get<bool>());
+  CHECK(result["reference"][0].is_null());
+  for (const json& point : result["points"]) CHECK_FALSE(point["finished"].get<bool>());
+}
