@@ -105,7 +105,7 @@ TEST_CASE("bench: without times equal runs give equal bytes, from the cache or n
 TEST_CASE("bench: interrupted, it keeps and marks what was finished") {
   const Workplace here;
   Process process(
-      {SIDELIGHT_BINARY, "bench", "good.toml", "-r", "64x48", "--runs", "100000", "-q", "-o", "out"},
+      {SIDELIGHT_BINARY, "bench", "good.toml", "-r", "16x12", "--runs", "100000", "-q", "-o", "out"},
       here / ".");
   process.await_handler(SIGINT);
   // In the middle of its 100,000 runs: the reference image is there, and the errors.
@@ -116,8 +116,11 @@ TEST_CASE("bench: interrupted, it keeps and marks what was finished") {
   CHECK(lines(outcome.err).size() == 1);
   const json result = read_json(here, "out/bench.json");
   CHECK(result["interrupted"].get<bool>());
-  for (const json& point : result["points"])
-    if (point["finished"].get<bool>()) CHECK(point["runs"] >= 1);
+  for (const json& point : result["points"]) {
+    CHECK(point["finished"].get<bool>());
+    CHECK(point["runs"] >= 1);
+    CHECK(point["runs"] < 100000);
+  }
 }
 
 TEST_CASE("bench: interrupted at once, it says so and has nothing to show") {

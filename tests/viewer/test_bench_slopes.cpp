@@ -29,15 +29,15 @@ double rms(const BenchPoint& point, ErrorKind kind) {
 }
 
 // A white half-plane before black, whose edge moves by `kSlope` pixels from row to row.
-constexpr int kEdgeWidth = 192, kEdgeHeight = 256;
+constexpr int kEdgeWidth = 96, kEdgeHeight = 128;
 const double kSlope = (std::sqrt(5.0) - 1) / 2;
 std::string edge_scene() {
-  // One pixel is 1/256 at distance 1. The edge passes 0.3 pixels beside the picture's middle.
+  // One pixel is 1/128 at distance 1. The edge passes 0.3 pixels beside the picture's middle.
   const double at_top = 0.3 / kEdgeHeight + kSlope * 0.6, at_bottom = 0.3 / kEdgeHeight - kSlope * 0.6;
   const auto vertex = [](double x, double y) {
     return "[" + std::to_string(x) + ", " + std::to_string(y) + ", -1]";
   };
-  return "picture = { size = [192, 256] }\n"
+  return "picture = { size = [96, 128] }\n"
          "ambient = 1\n"
          "camera = { eye = [0, 0, 0], look_at = [0, 0, -1], view_height = 1 }\n"
          "material.white = { ambient = 1 }\n"
@@ -68,7 +68,7 @@ double theory(int n) {
 
 }  // namespace
 
-// The rows' phases are a lattice, not random: over 256 of them a mean is off by some per cent (10 are allowed), and by
+// The rows' phases are a lattice, not random: over 128 of them a mean is off by some per cent (10 are allowed), and by
 // what the reference itself is off.
 TEST_CASE("bench: the sampling error of an edge of irrational slope is that of a sawtooth") {
   const BenchResult result = sweep(edge_scene(), {"renderer=raytrace", "samples=1,4,9"});

@@ -75,6 +75,8 @@ void check_verbs(const Workplace& here, const std::string& scene) {
   fine(Arguments{"compare"} + small + Arguments{"-o", "out"});
   check_inert(nlohmann::json::parse(read_bytes(here / "out/compare.json")));
   check_metadata(here / "out/side_by_side.png");
+  fine(Arguments{"bench"} + small + Arguments{"-o", "bench", "--no-times", "--set", "samples=1"});
+  check_inert(nlohmann::json::parse(read_bytes(here / "bench/bench.json")));
 #ifdef SIDELIGHT_HAVE_OSMESA
   fine(Arguments{"view"} + small + Arguments{"--screenshot", "view.png"});
   check_metadata(here / "view.png");

@@ -18,6 +18,7 @@ std::vector<Arguments> every_verb(const std::string& scene) {
                                   {"render", scene, "-o", "a.png"},
                                   {"render", scene, "-o", "a.exr", "--layers", "all", "--stats", "a.json"},
                                   {"compare", scene, "-o", "out"},
+                                  {"bench", scene, "-o", "bench", "--set", "samples=1"},
                                   {"explain", scene, "--pixel", "8,6"},
                                   {"explain", scene, "--pixel", "8,6", "--json", "b.json"}};
 #ifdef SIDELIGHT_HAVE_OSMESA

@@ -17,7 +17,7 @@ struct SweepPlan {
   std::vector<std::string> scenes;  // files
   std::optional<glm::ivec2> size;   // instead of each scene's
   std::vector<Config> configs;
-  int runs = 7;  // timed ones, after one warm-up
+  int runs = 7;  // timed frames of each, after a warm-up
   bool timed = true;
   PictureCache cache;
   std::atomic<bool>* cancel = nullptr;             // may be null

@@ -99,6 +99,7 @@ int run_bench(const BenchFlags& flags) {
   result.command = command_of(flags);
   judge(result);
   write_outputs(result, flags.folder);
+  if (!flags.job.quiet) fmt::print(stderr, "wrote {}/bench.json\n", printable(flags.folder));
   if (result.interrupted) throw Interrupted();
   return 0;
 }
