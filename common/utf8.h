@@ -32,6 +32,13 @@ inline std::size_t utf8_length(std::string_view text, std::size_t i) {
   return 0;
 }
 
+// How many characters it shows: its code points, and every byte that is part of none.
+inline std::size_t utf8_count(std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < text.size(); ++count) i += std::max<std::size_t>(1, utf8_length(text, i));
+  return count;
+}
+
 // Of the well-formed sequence of `length` bytes at text[i].
 inline char32_t code_point(std::string_view text, std::size_t i, std::size_t length) {
   constexpr std::array<unsigned, 5> kLeadBits{0, 0x7F, 0x1F, 0x0F, 0x07};

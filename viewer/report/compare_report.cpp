@@ -127,7 +127,7 @@ Html two_pictures(const CompareReport& report) {
 written to holds them whole.</p>
 )",
         factor);
-  return html("<section>\n<h2>The two pictures</h2>\n{}{}</section>\n", note, pair_html(left, right));
+  return html("<section>\n<h2>The two pictures</h2>\n{}{}</section>\n", note, pair_html("pair", left, right));
 }
 
 // The colours of signed_difference from -1 to 1, in the same strengths as the picture has, with what they stand for.

@@ -38,12 +38,18 @@ std::string_view inert(std::string_view sequence) {
 // By which whole factor a picture is enlarged on the page.
 int enlargement(const Image8& image) { return std::max(1, kLeastWidth / image.width); }
 
-Html image_html(const Figure& figure) {
-  const int factor = enlargement(figure.image);
-  return html(R"(<img src="data:image/png;base64,{}" width="{}" height="{}" alt="{}"{}>)",
-              Html{base64(encode_png(figure.image))}, factor * figure.image.width,
-              factor * figure.image.height, escaped(figure.alt, 1000),
-              Html{factor > 1 ? " class=\"enlarged\"" : ""});
+// A select box for either side, if there is anything to choose.
+Html choosers(const PairChoices& choices) {
+  Html out;
+  if (choices.all.empty()) return out;
+  for (const auto& [side, chosen] : {std::pair{"left", choices.left}, std::pair{"right", choices.right}}) {
+    Html options;
+    for (std::size_t i = 0; i < choices.all.size(); ++i)
+      options += html("<option value=\"{}\"{}>{}</option>\n", choices.all[i].id,
+                      Html{i == chosen ? " selected" : ""}, choices.all[i].label);
+    out += html("<label class=\"choose\">{}: <select data-side=\"{}\">\n{}</select></label>\n", side, side, options);
+  }
+  return out;
 }
 
 }  // namespace
@@ -82,27 +88,35 @@ std::string grouped(std::uint64_t number) {
   return out;
 }
 
+Html image_html(const Figure& figure) {
+  const int factor = enlargement(figure.image);
+  return html(R"(<img{} src="data:image/png;base64,{}" width="{}" height="{}" alt="{}"{}>)",
+              figure.id.empty() ? Html{} : html(" id=\"{}\"", figure.id), Html{base64(encode_png(figure.image))},
+              factor * figure.image.width, factor * figure.image.height, escaped(figure.alt, 1000),
+              Html{factor > 1 ? " class=\"enlarged\"" : ""});
+}
+
 Html figure_html(const Figure& figure) {
   return html("<figure>{}<figcaption>{}</figcaption></figure>\n", image_html(figure), figure.caption);
 }
 
-Html pair_html(const Figure& left, const Figure& right) {
-  return html(R"(<div class="pair" data-mode="two-up" style="--picture-width:{}px;--ratio:{}/{}">
+Html pair_html(std::string_view name, const Figure& left, const Figure& right, const PairChoices& choices) {
+  return html(R"(<div class="pair" data-mode="two-up" style="--picture-width:{0}px;--ratio:{1}/{2}">
 <div class="controls" hidden>
 <fieldset><legend>Show the pictures</legend>
-<label><input type="radio" name="pair" value="two-up" checked>side by side</label>
-<label><input type="radio" name="pair" value="swipe">swipe</label>
-<label><input type="radio" name="pair" value="flip">in place</label>
+<label><input type="radio" name="{3}" value="two-up" checked>side by side</label>
+<label><input type="radio" name="{3}" value="swipe">swipe</label>
+<label><input type="radio" name="{3}" value="flip">in place</label>
 </fieldset>
 <button type="button" class="flip">Flip <kbd>F</kbd></button>
-</div>
+{4}</div>
 <div class="stage">
-{}{}<div class="cover"><input type="range" min="0" max="1000" step="5" value="500" aria-label="Where the left picture ends and the right one begins"></div>
+{5}{6}<div class="cover"><input type="range" min="0" max="1000" step="5" value="500" aria-label="Where the left picture ends and the right one begins"></div>
 </div>
 </div>
 )",
-              enlargement(left.image) * left.image.width, left.image.width, left.image.height,
-              figure_html(left), figure_html(right));
+              enlargement(left.image) * left.image.width, left.image.width, left.image.height, name,
+              choosers(choices), figure_html(left), figure_html(right));
 }
 
 Html steps_html(std::string_view name, const std::vector<StepPage>& pages) {
@@ -136,7 +150,10 @@ Html table_html(const Table& table) {
     rows += html("</tr>\n");
   }
   if (!head.empty()) head = html("<thead><tr>{}</tr></thead>\n", head);
-  return html("<table><caption>{}</caption>\n{}<tbody>\n{}</tbody></table>\n", table.caption, head, rows);
+  const Html whole = html("<table{}><caption>{}</caption>\n{}<tbody>\n{}</tbody></table>\n",
+                          Html{table.sortable ? " class=\"sortable\"" : ""}, table.caption, head, rows);
+  if (!table.sortable) return whole;
+  return html("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\">\n{}</div>\n", table.caption, whole);
 }
 
 // The policy forbids every request, whatever the page holds.
@@ -150,7 +167,7 @@ std::string page_html(std::string_view title, const Html& body) {
 <meta name="color-scheme" content="light dark">
 <meta name="generator" content="sidelight )" SIDELIGHT_VERSION R"(">
 <title>{}</title>
-<style>{}</style>
+<style>{}{}</style>
 </head>
 <body>
 <main>
@@ -159,7 +176,7 @@ std::string page_html(std::string_view title, const Html& body) {
 </body>
 </html>
 )",
-              title, Html{std::string(kPageStyle)}, body, Html{std::string(kPageScript)})
+              title, Html{std::string(kPlotStyle)}, Html{std::string(kPageStyle)}, body, Html{std::string(kPageScript)})
       .markup;
 }
 

@@ -63,12 +63,23 @@ struct Figure {
   Image8 image;
   std::string alt;
   Html caption;
+  std::string id = {};  // of the picture's element; may be empty
 };
 Html figure_html(const Figure& figure);
+// Its picture alone.
+Html image_html(const Figure& figure);
 
 // Two pictures of one size: beside each other, under a slider, or flipped in place. Without JavaScript: beside each
-// other. At most one a page.
-Html pair_html(const Figure& left, const Figure& right);
+// other. `name`: of this pair within the page, a word. With choices, either side shows any of them: a label and the id
+// of the picture's element elsewhere on the page; the two that stand there at first are given by their indices.
+struct PairChoices {
+  struct Choice {
+    std::string label, id;
+  };
+  std::vector<Choice> all;
+  std::size_t left = 0, right = 0;
+};
+Html pair_html(std::string_view name, const Figure& left, const Figure& right, const PairChoices& choices = {});
 
 // Pages of which JavaScript shows one at a time, so that pictures in the same place flip; without it all are shown in
 // their order. `name`: of this list within the page, a word. Labels are the text of the buttons.
@@ -78,18 +89,22 @@ struct StepPage {
 };
 Html steps_html(std::string_view name, const std::vector<StepPage>& pages);
 
-// A table with a caption; the first column names its row.
+// A table with a caption; the first column names its row. A sortable one is sorted by a click on a heading: by the
+// numbers that its cells begin with, else by their text; it scrolls sideways where it is too wide.
 struct Table {
   std::string caption;
   std::vector<std::string> columns;     // may be empty: no heading
   std::vector<std::vector<Html>> rows;  // each as long as the others
+  bool sortable = false;
 };
 Html table_html(const Table& table);
 
 // The whole file.
 std::string page_html(std::string_view title, const Html& body);
 
-// What page_html embeds (page_style.cpp, page_script.cpp).
+// What page_html embeds (page_style.cpp, page_script.cpp). The style of plots, with the colours of all, serves SVG files
+// too.
+extern const std::string_view kPlotStyle;
 extern const std::string_view kPageStyle;
 extern const std::string_view kPageScript;
 

@@ -30,8 +30,20 @@ for (const pair of document.querySelectorAll('.pair')) {
   pair.querySelector('.flip').addEventListener('click', flip);
   stage.addEventListener('click', () => { if (pair.dataset.mode === 'flip') flip(); });
   document.addEventListener('keydown', event => {
-    if (event.key.toLowerCase() === 'f' && !event.ctrlKey && !event.metaKey && !event.altKey) flip();
+    if (event.key.toLowerCase() !== 'f' || event.ctrlKey || event.metaKey || event.altKey) return;
+    const { top, bottom } = stage.getBoundingClientRect();
+    const seen = top < innerHeight && bottom > 0;
+    if (seen && event.target.tagName !== 'SELECT') flip();
   });
+  for (const select of pair.querySelectorAll('select')) {
+    const figure = stage.querySelectorAll('figure')[select.dataset.side === 'left' ? 0 : 1];
+    select.addEventListener('change', () => {
+      const chosen = document.getElementById(select.value), img = figure.querySelector('img');
+      img.src = chosen.src;
+      img.alt = chosen.alt;
+      figure.querySelector('figcaption').textContent = select.selectedOptions[0].label;
+    });
+  }
   swipe();
   show('two-up', 'left');
   pair.querySelector('.controls').hidden = false;
@@ -55,6 +67,71 @@ for (const steps of document.querySelectorAll('.steps')) {
   steps.classList.add('one');
   steps.querySelector('.controls').hidden = false;
   show(0);
+}
+
+// A plot whose marks show their pictures beside it: under the mouse, or by Tab and then the arrow keys, from fast to slow.
+for (const explore of document.querySelectorAll('.explore')) {
+  const panel = explore.querySelector('.pointed');
+  const x = mark => mark.transform.baseVal.getItem(0).matrix.e;
+  const marks = [...explore.querySelectorAll('.mark')].sort((a, b) => x(a) - x(b));
+  if (marks.length === 0) continue;
+
+  const picture = id => {
+    const img = document.getElementById(id)?.cloneNode();
+    if (!img) return [];
+    img.removeAttribute('id');
+    const figure = document.createElement('figure'), caption = document.createElement('figcaption');
+    caption.textContent = img.alt;
+    figure.append(img, caption);
+    return [figure];
+  };
+  const show = shown => {
+    for (const mark of marks) {
+      mark.classList.toggle('shown', mark === shown);
+      mark.setAttribute('tabindex', mark === shown ? 0 : -1);
+    }
+    panel.querySelector('p').textContent = shown.querySelector('title').textContent;
+    const { picture: first, difference: second } = document.getElementById('point-' + shown.dataset.point).dataset;
+    panel.querySelector('.columns').replaceChildren(...picture(first), ...picture(second));
+    mark_enlarged();
+  };
+  marks.forEach((mark, i) => {
+    mark.setAttribute('role', 'img');
+    for (const event of ['pointerenter', 'focus', 'click']) mark.addEventListener(event, () => show(mark));
+    mark.addEventListener('keydown', event => {
+      const to = { ArrowRight: i + 1, ArrowDown: i + 1, ArrowLeft: i - 1, ArrowUp: i - 1, Home: 0, End: -1 }[event.key];
+      if (to === undefined) return;
+      event.preventDefault();
+      marks.at(to % marks.length).focus();
+    });
+  });
+  panel.hidden = false;
+  show(marks.find(mark => mark.classList.contains('good')) ?? marks[0]);
+}
+
+// Tables that a click on a heading sorts: upwards, and downwards when they were. A cell counts as the number that it
+// begins with, if it does.
+for (const table of document.querySelectorAll('table.sortable')) {
+  const headings = [...table.tHead.rows[0].cells], body = table.tBodies[0];
+  const value = (row, column) => {
+    const text = row.cells[column].textContent.replaceAll('\u202F', '');
+    const number = parseFloat(text);
+    return Number.isNaN(number) ? text : number;
+  };
+  const before = (a, b) => typeof a !== typeof b ? (typeof a === 'number' ? -1 : 1)
+    : typeof a === 'number' ? a - b : a.localeCompare(b);
+  headings.forEach((heading, column) => {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.append(...heading.childNodes);
+    heading.append(button);
+    button.addEventListener('click', () => {
+      const sign = heading.ariaSort === 'ascending' ? -1 : 1;
+      for (const each of headings) each.removeAttribute('aria-sort');
+      heading.setAttribute('aria-sort', sign > 0 ? 'ascending' : 'descending');
+      body.append(...[...body.rows].sort((a, b) => sign * before(value(a, column), value(b, column))));
+    });
+  });
 }
 
 // An enlarged picture shows its pixels; a reduced one is filtered.

@@ -5,20 +5,48 @@
 
 namespace sidelight {
 
-const std::string_view kPageStyle = R"css(
+const std::string_view kPlotStyle = R"css(
 :root {
   color-scheme: light dark;
   --paper: #fff; --ink: #1b1d22; --quiet: #575c66; --rule: #d5d8de; --panel: #f4f5f7;
-  --accent: #0b5cad; --on-accent: #fff; --bad: #a8201a;
+  --accent: #0b5cad; --on-accent: #fff; --bad: #a8201a; --beaten: #a0a4ac;
   --c0: #0072b2; --c1: #c44e00; --c2: #00835f; --c3: #a2457f; --c4: #8a6100; --c5: #1b1d22;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --paper: #14161a; --ink: #e9ebef; --quiet: #a7adb8; --rule: #3a3f49; --panel: #1e2127;
-    --accent: #7cb8f5; --on-accent: #10131a; --bad: #ff8a80;
+    --accent: #7cb8f5; --on-accent: #10131a; --bad: #ff8a80; --beaten: #6d737e;
     --c0: #56b4e9; --c1: #ff8a3d; --c2: #2bc49a; --c3: #e59ac8; --c4: #e6b93c; --c5: #e9ebef;
   }
 }
+svg { font: 13px system-ui, "Segoe UI", Arial, "DejaVu Sans", sans-serif; fill: var(--ink); overflow: hidden; }
+svg .grid { stroke: var(--rule); stroke-width: 1; fill: none; }
+svg .frame { stroke: var(--quiet); stroke-width: 1.2; fill: none; }
+svg .quiet { fill: var(--quiet); }
+svg .curve { fill: none; stroke-width: 2.2; stroke-linejoin: round; stroke-linecap: round; }
+svg .lobe { fill: var(--c0); fill-opacity: 0.18; stroke: var(--c0); stroke-width: 2; stroke-linejoin: round; }
+svg .c0 { stroke: var(--c0); } svg .c1 { stroke: var(--c1); } svg .c2 { stroke: var(--c2); }
+svg .c3 { stroke: var(--c3); } svg .c4 { stroke: var(--c4); } svg .c5 { stroke: var(--c5); }
+svg .paper { fill: var(--paper); }
+svg .floor { stroke: var(--quiet); stroke-width: 1; stroke-dasharray: 2 4; fill: none; }
+svg .staircase { stroke: var(--ink); stroke-width: 1.6; fill: none; stroke-linejoin: round; }
+svg .thread, svg .leader, svg .whisker { stroke: var(--quiet); stroke-width: 0.8; fill: none; }
+svg .thread { stroke-dasharray: 1 3; stroke-linecap: round; }
+svg .label { font-size: 12px; paint-order: stroke; stroke: var(--paper); stroke-width: 3px; stroke-linejoin: round; }
+svg .reason { fill: var(--bad); }
+svg .s0 { color: var(--c0); } svg .s1 { color: var(--c1); } svg .s2 { color: var(--c2); }
+svg .s3 { color: var(--c3); } svg .s4 { color: var(--c4); } svg .s5 { color: var(--c5); }
+svg .shape { fill: currentColor; stroke: var(--paper); stroke-width: 1; }
+svg .beaten .shape { fill: var(--beaten); }
+svg .failed .shape { fill: var(--paper); stroke: currentColor; stroke-width: 1.8; }
+svg .good .whisker { stroke: currentColor; stroke-width: 1.2; }
+svg .reach { fill: none; stroke: none; pointer-events: all; }
+svg .mark.shown .reach { stroke: currentColor; stroke-width: 1.5; }
+svg .mark:focus { outline: none; }
+svg .mark:focus .reach { stroke: var(--accent); stroke-width: 3; }
+)css";
+
+const std::string_view kPageStyle = R"css(
 * { box-sizing: border-box; }
 body {
   margin: 0; background: var(--paper); color: var(--ink);
@@ -76,7 +104,7 @@ button { border-radius: 0.4rem; }
 .controls label { margin-left: -1px; }
 .controls label:first-of-type { border-radius: 0.4rem 0 0 0.4rem; margin-left: 0; }
 .controls label:last-of-type { border-radius: 0 0.4rem 0.4rem 0; }
-.controls label:has(:checked) { background: var(--accent); color: var(--on-accent); border-color: var(--accent); }
+.controls label:has(input:checked) { background: var(--accent); color: var(--on-accent); border-color: var(--accent); }
 .controls label input { position: absolute; opacity: 0; pointer-events: none; }
 :focus-visible, .controls label:has(:focus-visible), .cover:focus-within {
   outline: 3px solid var(--accent); outline-offset: 3px; z-index: 1;
@@ -119,19 +147,51 @@ button { border-radius: 0.4rem; }
 .terms figcaption { margin: 0; align-self: end; }
 @media (max-width: 46rem) { .step { grid-template-columns: minmax(0, 1fr); } }
 
-/* Plots. */
-svg { font: 13px system-ui, "Segoe UI", Arial, "DejaVu Sans", sans-serif; fill: var(--ink); overflow: hidden; }
-svg .grid { stroke: var(--rule); stroke-width: 1; fill: none; }
-svg .frame { stroke: var(--quiet); stroke-width: 1.2; fill: none; }
-svg .quiet { fill: var(--quiet); }
-svg .curve { fill: none; stroke-width: 2.2; stroke-linejoin: round; stroke-linecap: round; }
-svg .lobe { fill: var(--c0); fill-opacity: 0.18; stroke: var(--c0); stroke-width: 2; stroke-linejoin: round; }
-svg .c0 { stroke: var(--c0); } svg .c1 { stroke: var(--c1); } svg .c2 { stroke: var(--c2); }
-svg .c3 { stroke: var(--c3); } svg .c4 { stroke: var(--c4); } svg .c5 { stroke: var(--c5); }
+/* A bench: the plot and what its marks point to; many pictures in small; tables with more columns than a page has room. */
+.bench h3 { margin-top: 2.6rem; }
+.explore { display: grid; gap: 1rem 2rem; grid-template-columns: minmax(0, 680px); align-items: start; }
+.pointed h4 { margin: 0 0 0.2rem; font-size: 1rem; }
+.pointed p { margin: 0 0 0.8rem; font-size: 0.95rem; line-height: 1.45; min-height: 4.4em; }
+.pointed .columns { gap: 0.8rem; grid-template-columns: repeat(auto-fit, minmax(min(12rem, 100%), 1fr)); }
+.pointed img, .gallery img { width: 100%; }
+@media (min-width: 72rem) {
+  .explore:has(.pointed:not([hidden])) { grid-template-columns: minmax(0, 680px) minmax(0, 1fr); }
+  .pointed .columns { grid-template-columns: minmax(0, 1fr); max-width: 20rem; }
+}
+.small { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(min(20rem, 100%), 1fr)); }
+.kinds figcaption { margin: 0; } .kinds figcaption b::first-letter { text-transform: uppercase; }
+.small svg { width: 100%; max-width: 28rem; margin-top: 0.4rem; }
+.gallery { display: grid; gap: 1.4rem 1rem; grid-template-columns: repeat(auto-fill, minmax(min(11rem, 100%), 1fr)); }
+.gallery img { margin-bottom: 0.3rem; }
+.gallery .same { aspect-ratio: var(--ratio); margin: 0 0 0.3rem; border: 1px solid var(--rule); padding: 0.5rem;
+                 display: grid; place-content: center; text-align: center; font-size: 0.85rem; line-height: 1.35; }
+.gallery figcaption { font-size: 0.85rem; line-height: 1.35; margin-top: 0.2rem; }
+.bench .pair[data-mode=two-up] .stage {
+  grid-template-columns: repeat(auto-fit, minmax(min(16rem, 100%), var(--picture-width)));
+}
+.wide { overflow-x: auto; }
+.wide table { max-width: none; font-size: 0.92rem; }
+.wide th, .wide td { white-space: nowrap; }
+.wide th, .wide td { padding-top: 0.2rem; padding-bottom: 0.2rem; }
+.wide thead th:not(:first-child), .wide td { padding-left: 0.9rem; }
+.wide td:nth-child(2) { text-align: left; }
+.wide thead th:nth-child(2) { text-align: left; }
+.wide tbody tr:hover { background: var(--panel); }
+th button { font: inherit; color: inherit; background: none; border: 0; padding: 0; text-align: inherit; }
+th button::after { content: "\2195"; opacity: 0.3; margin-left: 0.3em; }
+th[aria-sort=ascending] button::after { content: "\2191"; opacity: 1; }
+th[aria-sort=descending] button::after { content: "\2193"; opacity: 1; }
+.controls label.choose { background: none; border: 0; padding: 0.45rem 0; margin: 0; cursor: auto; }
+select { font: inherit; max-width: 100%; padding: 0.4rem 0.5rem; background: var(--panel); color: var(--ink);
+         border: 1px solid var(--rule); border-radius: 0.4rem; }
+.facts th { white-space: nowrap; }
+.facts td { text-align: left; }
 @media print {
   .controls { display: none !important; }
   .steps.one li { display: block; }
   h2, figure, li { break-inside: avoid; }
+  .wide { overflow: visible; }
+  .wide table { font-size: 0.6rem; }
 }
 )css";
 
