@@ -49,16 +49,22 @@ however fast they are. Dotted lines join the values of one knob.</figcaption></f
               scatter_svg(total_scatter(page.result, scene)));
 }
 
+Html kind_words(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::arithmetic:
+      return html("<b>Arithmetic</b>: rounding, with the same samples and the same model.");
+    case ErrorKind::model:
+      return html("<b>Model</b>: what the configuration leaves out, such as rays or curvature.");
+    case ErrorKind::sampling:
+      return html("<b>Sampling</b>: too few samples a pixel.");
+  }
+  return {};
+}
+
 Html kinds(const Page& page, std::size_t scene) {
   Html plots;
-  for (const auto& [kind, plot] : small_kind_scatters(page.result, scene)) {
-    const char* what = kind == ErrorKind::arithmetic ? "rounding, with the same samples and the same model."
-                       : kind == ErrorKind::model
-                           ? "what the configuration leaves out, such as rays or curvature."
-                           : "too few samples a pixel.";
-    plots += html("<figure><figcaption><b>{} error</b>: {}</figcaption>{}</figure>\n",
-                  kErrorKindNames[static_cast<std::size_t>(kind)], what, scatter_svg(plot));
-  }
+  for (const auto& [kind, plot] : small_kind_scatters(page.result, scene))
+    plots += html("<figure><figcaption>{}</figcaption>{}</figure>\n", kind_words(kind), scatter_svg(plot));
   if (plots.empty()) return {};
   return html(R"(<h3>The kinds of error, kept apart</h3>
 <p>On the same axes: the renderers' default settings, and the configurations that move a kind of error by more than a

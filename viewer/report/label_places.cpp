@@ -79,6 +79,7 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelReque
                         const std::vector<Rectangle>& also_taken) -> std::optional<LabelPlace> {
     for (std::size_t ring = 0; ring < rings; ++ring)
       for (const auto& [x, y] : kDirections) {
+        if (ring >= kFirstWithLeader && y == 0) continue;  // the line would hide in lines of equal error
         const glm::dvec2 direction(x, y), anchor = request.mark + kDistances[ring] * direction;
         LabelPlace place{box_at(anchor, direction, request.size), {}};
         if (ring >= kFirstWithLeader) place.leader = anchor;

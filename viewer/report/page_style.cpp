@@ -159,7 +159,8 @@ button { border-radius: 0.4rem; }
   .pointed .columns { grid-template-columns: minmax(0, 1fr); max-width: 20rem; }
 }
 .small { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(min(20rem, 100%), 1fr)); }
-.kinds figcaption { margin: 0; } .kinds figcaption b::first-letter { text-transform: uppercase; }
+.kinds figure { display: flex; flex-direction: column; justify-content: space-between; }
+.kinds figcaption { margin: 0; }
 .small svg { width: 100%; max-width: 28rem; margin-top: 0.4rem; }
 .gallery { display: grid; gap: 1.4rem 1rem; grid-template-columns: repeat(auto-fill, minmax(min(11rem, 100%), 1fr)); }
 .gallery img { margin-bottom: 0.3rem; }
