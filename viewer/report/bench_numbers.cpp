@@ -39,8 +39,7 @@ Html error_table(const BenchResult& result, const std::vector<std::size_t>& orde
       R"(<p>Errors are measured in linear light against the reference image, and RMSE by kind too. Greatest is that of a
 channel; covered: RMSE of the pixels that show a surface; 99.9 %: what all but a thousandth of the channels stay below;
 depth: the greatest relative error of a depth; mismatches: samples that show another surface than the exact one.</p>
-{}<p></p>
-)",
+{})",
       table_html(table));
 }
 

@@ -174,6 +174,7 @@ std::vector<std::pair<ErrorKind, Scatter>> small_kind_scatters(const BenchResult
     plot.legend = false;
     plot.x_label = "time a frame in ms";
     plot.y_label = "RMSE";
+    for (Mark& mark : plot.marks) mark.label.resize(1);
     plot.x_values = xs;
     plot.y_values = ys;
   }

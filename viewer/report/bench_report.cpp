@@ -40,9 +40,9 @@ Html explore(const Page& page, std::size_t scene) {
   return html(R"(<h3>Time against error</h3>
 <div class="explore">
 <figure>{}<figcaption>Left is faster, low is more accurate. A mark is the median of the runs, its bar reaches from the
-least to the greatest. <b>Filled</b> marks stand on the front, drawn as a staircase: nothing is both faster and more
-accurate. <b>Grey</b> ones are dominated. <b>Hollow</b> ones fail a test, named beside them, and cannot stand on the front
-however fast they are. Dotted lines join the values of one knob.</figcaption></figure>
+least to the greatest. <b>Filled</b> marks stand on the front, drawn as a staircase. <b>Grey</b> ones do not: something at
+least as accurate is faster, or is not slower by more than the runs differ. <b>Hollow</b> ones fail a test, named beside
+them, and cannot stand on the front however fast they are. Dotted lines join the values of one knob.</figcaption></figure>
 <aside class="pointed" hidden aria-live="polite"><p></p><div class="columns"></div></aside>
 </div>
 )",

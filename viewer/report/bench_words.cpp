@@ -124,14 +124,18 @@ std::vector<Fact> summary_facts(const BenchResult& result, std::size_t scene) {
   add("default setting", summary.standard);
   add("fastest exact", summary.fastest_exact);
   add("most accurate", summary.most_accurate);
-  if (summary.equal_error_speedup)
-    out.push_back({"equal-error speed-up",
-                   fmt::format("{:.3g}: at the default's error the front takes 1/{:.3g} of its time",
-                               *summary.equal_error_speedup, *summary.equal_error_speedup)});
-  if (summary.equal_time_error)
-    out.push_back({"equal-time error ratio",
-                   fmt::format("{:.3g}: in the default's time the front has {:.3g} of its error",
-                               *summary.equal_time_error, *summary.equal_time_error)});
+  if (const auto& ratio = summary.equal_error_speedup)
+    out.push_back(
+        {"equal-error speed-up",
+         *ratio == 1
+             ? "1: the default setting stands on the front"
+             : fmt::format("{0:.3g}: at the default's error the front takes 1/{0:.3g} of its time", *ratio)});
+  if (const auto& ratio = summary.equal_time_error)
+    out.push_back(
+        {"equal-time error ratio",
+         *ratio == 1
+             ? "1: the default setting stands on the front"
+             : fmt::format("{0:.3g}: in the default's time the front has {0:.3g} of its error", *ratio)});
   return out;
 }
 

@@ -8,7 +8,7 @@
 namespace sidelight {
 namespace {
 
-constexpr std::array kDistances{10.0, 18.0, 28.0, 40.0, 54.0, 70.0, 90.0, 112.0};  // of a label from its mark
+constexpr std::array kDistances{10.0, 18.0, 28.0, 40.0, 54.0, 70.0, 90.0};  // of a label from its mark
 constexpr std::size_t kFirstFar = 4;  // nearer ones are preferred while they also avoid what they may overlap
 constexpr std::size_t kFirstWithLeader = 2;  // nearer ones need no line to their mark
 
@@ -75,13 +75,13 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelReque
                                                     const std::vector<Rectangle>& avoided,
                                                     const Rectangle& frame) {
   const std::size_t first_label = taken.size();
-  const auto find = [&](const LabelRequest& request, std::size_t rings,
+  const auto find = [&](const LabelRequest& request, std::size_t form, std::size_t rings,
                         const std::vector<Rectangle>& also_taken) -> std::optional<LabelPlace> {
     for (std::size_t ring = 0; ring < rings; ++ring)
       for (const auto& [x, y] : kDirections) {
         if (ring >= kFirstWithLeader && y == 0) continue;  // the line would hide in lines of equal error
         const glm::dvec2 direction(x, y), anchor = request.mark + kDistances[ring] * direction;
-        LabelPlace place{box_at(anchor, direction, request.size), {}};
+        LabelPlace place{box_at(anchor, direction, request.sizes[form]), form, {}};
         if (ring >= kFirstWithLeader) place.leader = anchor;
         if (within(place.box, frame) && !overlaps_any(place.box, also_taken) &&
             is_free(request, place, taken, first_label))
@@ -91,8 +91,11 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelReque
   };
   std::vector<std::optional<LabelPlace>> out;
   for (const LabelRequest& request : requests) {
-    std::optional<LabelPlace> place = find(request, kFirstFar, avoided);
-    if (!place) place = find(request, kDistances.size(), {});
+    std::optional<LabelPlace> place;
+    for (std::size_t form = 0; form < request.sizes.size() && !place; ++form) {
+      place = find(request, form, kFirstFar, avoided);
+      if (!place) place = find(request, form, kDistances.size(), {});
+    }
     if (place) taken.push_back(place->box);
     out.push_back(place);
   }

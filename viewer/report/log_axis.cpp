@@ -11,7 +11,7 @@
 namespace sidelight {
 namespace {
 
-constexpr double kMargin = 0.06;         // of the span, at either end
+constexpr double kRoomBelow = 0.06;      // of the span
 constexpr double kLeastDecades = 0.602;  // log10 of 4
 constexpr double kMostFineDecades = 2.5;
 constexpr int kMostTicks = 8;
@@ -27,25 +27,23 @@ std::string superscript(int number) {
   return out;
 }
 
-std::vector<double> ticks_between(double low, double high) {
-  const int first = static_cast<int>(std::floor(std::log10(low))),
-            last = static_cast<int>(std::ceil(std::log10(high)));
-  const bool fine = std::log10(high / low) <= kMostFineDecades;
-  const int step = fine ? 1 : (last - first + kMostTicks - 1) / kMostTicks;
-  std::vector<double> out;
+void add_ticks(LogAxis& axis) {
+  const int first = static_cast<int>(std::floor(std::log10(axis.low)));
+  const int last = static_cast<int>(std::ceil(std::log10(axis.high)));
+  axis.powers = std::log10(axis.high / axis.low) > kMostFineDecades;
+  const int step = axis.powers ? (last - first + kMostTicks - 1) / kMostTicks : 1;
   for (int exponent = first; exponent <= last; ++exponent) {
     if (exponent % step != 0) continue;
     for (const int digit : {1, 2, 5}) {
       const double tick = digit * power_of_ten(exponent);
-      if (tick >= low && tick <= high && (fine || digit == 1)) out.push_back(tick);
+      if (tick >= axis.low && tick <= axis.high && (digit == 1 || !axis.powers)) axis.ticks.push_back(tick);
     }
   }
-  return out;
 }
 
 }  // namespace
 
-LogAxis log_axis(std::span<const double> values) {
+LogAxis log_axis(std::span<const double> values, double room_above) {
   std::vector<double> logs;
   for (const double value : values)
     if (std::isfinite(value) && value > 0) logs.push_back(std::log10(value));
@@ -53,17 +51,18 @@ LogAxis log_axis(std::span<const double> values) {
   if (!logs.empty()) {
     const auto [least, greatest] = std::minmax_element(logs.begin(), logs.end());
     const double missing = std::max(0.0, kLeastDecades - (*greatest - *least)) / 2;
-    const double room = missing + kMargin * (*greatest - *least + 2 * missing);
+    const double span = *greatest - *least + 2 * missing;
     // Neither end may leave the range of double.
-    axis.low = std::pow(10, std::max(*least - room, -307.0));
-    axis.high = std::pow(10, std::min(*greatest + room, 308.0));
+    axis.low = std::pow(10, std::max(*least - missing - kRoomBelow * span, -307.0));
+    axis.high = std::pow(10, std::min(*greatest + missing + room_above * span, 308.0));
   }
-  axis.ticks = ticks_between(axis.low, axis.high);
+  add_ticks(axis);
   return axis;
 }
 
-std::string tick_words(double tick) {
-  if (tick >= 1e-3 && tick < 1e5) return fmt::format("{:g}", tick);
+std::string tick_words(const LogAxis& axis, double tick) {
+  const bool plain = tick == 1 || (tick >= 1e-3 && tick < 1e5 && !(axis.powers && axis.low < 1e-3));
+  if (plain) return fmt::format("{:g}", tick);
   const int exponent = static_cast<int>(std::floor(std::log10(tick * (1 + 1e-9))));
   const int digit = static_cast<int>(std::lround(tick / power_of_ten(exponent)));
   return (digit == 1 ? "" : fmt::format("{}·", digit)) + "10" + superscript(exponent);

@@ -95,7 +95,7 @@ thead th:not(:first-child), td { text-align: right; padding-right: 0.4rem; paddi
 .scale img { width: 100%; height: 1rem; image-rendering: pixelated; }
 .scale div { display: flex; justify-content: space-between; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
 
-.controls:not([hidden]) { display: flex; flex-wrap: wrap; gap: 0.6rem; margin: 0.5rem 0 1rem; }
+.controls:not([hidden]) { display: flex; flex-wrap: wrap; align-items: center; gap: 0.6rem; margin: 0.5rem 0 1rem; }
 fieldset { border: 0; margin: 0; padding: 0; display: flex; flex-wrap: wrap; min-width: 0; }
 legend { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
 .controls label, button { font: inherit; line-height: 1.3; padding: 0.45rem 1rem; background: var(--panel);
@@ -151,7 +151,7 @@ button { border-radius: 0.4rem; }
 .bench h3 { margin-top: 2.6rem; }
 .explore { display: grid; gap: 1rem 2rem; grid-template-columns: minmax(0, 680px); align-items: start; }
 .pointed h4 { margin: 0 0 0.2rem; font-size: 1rem; }
-.pointed p { margin: 0 0 0.8rem; font-size: 0.95rem; line-height: 1.45; min-height: 4.4em; }
+.pointed p { margin: 0 0 0.8rem; font-size: 0.95rem; line-height: 1.45; min-height: 3em; }
 .pointed .columns { gap: 0.8rem; grid-template-columns: repeat(auto-fit, minmax(min(12rem, 100%), 1fr)); }
 .pointed img, .gallery img { width: 100%; }
 @media (min-width: 72rem) {
@@ -175,8 +175,8 @@ button { border-radius: 0.4rem; }
 .wide th, .wide td { white-space: nowrap; }
 .wide th, .wide td { padding-top: 0.2rem; padding-bottom: 0.2rem; }
 .wide thead th:not(:first-child), .wide td { padding-left: 0.9rem; }
-.wide td:nth-child(2) { text-align: left; }
-.wide thead th:nth-child(2) { text-align: left; }
+.wide thead th:nth-child(2), .wide td:nth-child(2) { text-align: left; }
+.wide td:nth-child(2) { white-space: normal; min-width: 9rem; }
 .wide tbody tr:hover { background: var(--panel); }
 th button { font: inherit; color: inherit; background: none; border: 0; padding: 0; text-align: inherit; }
 th button::after { content: "\2195"; opacity: 0.3; margin-left: 0.3em; }

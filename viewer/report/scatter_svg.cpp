@@ -16,10 +16,12 @@ namespace sidelight {
 namespace {
 
 constexpr double kLeft = 64, kRightRoom = 14, kTop = 14, kLegendRoom = 30, kBottomRoom = 50;
-constexpr double kFloorRoom = 34;                                          // below the break of the axis
-constexpr double kRadius = 5;                                              // of a mark
-constexpr double kReach = 11;                                              // of what takes the mouse for it
-constexpr double kLetterWidth = 6.3, kLineHeight = 14, kHalfLetter = 4.5;  // of a label
+constexpr double kRoomForLabels = 0.18;  // above the greatest error, as a part of the axis
+constexpr double kFloorRoom = 34;        // below the break of the axis
+constexpr double kRadius = 5;            // of a mark
+constexpr double kReach = 11;            // of what takes the mouse for it
+constexpr double kLetterWidth = 6.3, kKeyLetterWidth = 7.2, kLineHeight = 14,
+                 kHalfLetter = 4.5;  // of a label
 constexpr std::size_t kLongestLine = 34;
 
 // Where things stand in the drawing.
@@ -51,7 +53,7 @@ Layout lay_out(const Scatter& plot, const std::vector<Mark>& marks) {
   }
   out.floor = std::find(ys.begin(), ys.end(), 0.0) != ys.end();
   out.x = log_axis(xs);
-  out.y = log_axis(ys);
+  out.y = log_axis(ys, kRoomForLabels);
   out.right = plot.width - kRightRoom;
   out.top = kTop + (plot.legend ? kLegendRoom : 0);
   out.bottom = plot.height - kBottomRoom - (out.floor ? kFloorRoom : 0);
@@ -85,12 +87,12 @@ Html grid(const Scatter& plot, const Layout& at) {
   for (const double tick : at.x.ticks) {
     const double x = at.at_x(tick);
     out += path("grid", html("M{:.1f},{:.1f} V{:.1f}", x, at.top, at.lowest()));
-    out += text(x, at.lowest() + 18, tick_words(tick), "middle");
+    out += text(x, at.lowest() + 18, tick_words(at.x, tick), "middle");
   }
   for (const double tick : at.y.ticks) {
     const double y = at.at_y(tick);
     out += path("grid", html("M{:.1f},{:.1f} H{:.1f}", at.left, y, at.right));
-    out += text(at.left - 8, y + kHalfLetter, tick_words(tick), "end");
+    out += text(at.left - 8, y + kHalfLetter, tick_words(at.y, tick), "end");
   }
   out += path("frame", html("M{0:.1f},{1:.1f} V{2:.1f} M{0:.1f},{3:.1f} H{4:.1f}", at.left, at.top, at.bottom,
                             at.lowest(), at.right));
@@ -160,7 +162,9 @@ std::string shortened(const std::string& line) {
     i += std::max<std::size_t>(1, utf8_length(line, i));
   return i < line.size() ? line.substr(0, i) + "…" : line;
 }
-double text_width(const std::string& line) { return kLetterWidth * static_cast<double>(utf8_count(line)); }
+double text_width(const std::string& line, double letter = kLetterWidth) {
+  return letter * static_cast<double>(utf8_count(line));
+}
 
 Html label_html(const Mark& mark, const std::vector<std::string>& lines, const LabelPlace& place,
                 const Layout& at) {
@@ -202,22 +206,27 @@ Html labels(const std::vector<Mark>& marks, const std::vector<glm::dvec2>& corne
     const glm::dvec2 low = glm::min(corners[k - 1], corners[k]), high = glm::max(corners[k - 1], corners[k]);
     steps.push_back({low.x - 1, low.y - 1, high.x + 1, high.y + 1});
   }
-  std::vector<LabelRequest> requests;
+  std::vector<LabelRequest> requests;  // all lines, else the first alone
   std::vector<std::vector<std::string>> lines;
   for (const std::size_t i : order) {
+    LabelRequest& request = requests.emplace_back();
+    request.mark = at.at(marks[i]);
     lines.emplace_back();
-    double width = 0;
+    glm::dvec2 size(0);
     for (const std::string& line : marks[i].label) {
       lines.back().push_back(shortened(line));
-      width = std::max(width, text_width(lines.back().back()));
+      size = {std::max(size.x, text_width(lines.back().back())), size.y + kLineHeight};
+      request.sizes.insert(request.sizes.begin(), size);
     }
-    requests.push_back({at.at(marks[i]), {width, kLineHeight * static_cast<double>(lines.back().size())}});
   }
   const Rectangle frame{at.left + 2, at.top, at.right, at.lowest()};
   const std::vector<std::optional<LabelPlace>> places = place_labels(requests, taken, steps, frame);
   Html out;
-  for (std::size_t k = 0; k < order.size(); ++k)
-    if (places[k]) out += label_html(marks[order[k]], lines[k], *places[k], at);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (!places[k]) continue;
+    lines[k].resize(lines[k].size() - places[k]->form);
+    out += label_html(marks[order[k]], lines[k], *places[k], at);
+  }
   return out;
 }
 
@@ -229,13 +238,13 @@ Html legend(const Scatter& plot, const std::vector<Mark>& marks, const Layout& a
     out += html("<g class=\"key s{} {}\" transform=\"translate({:.1f} {})\">{}</g>\n", series, state, x, kTop,
                 shape(series));
     out += text(x + 11, kTop + kHalfLetter, shortened(name), "start");
-    x += 32 + text_width(shortened(name));
+    x += 28 + text_width(shortened(name), kKeyLetterWidth);
   };
   for (std::size_t s = 0; s < plot.series.size(); ++s) add(s, "good", plot.series[s]);
   if (plot.staircase) {
     out += path("staircase", html("M{:.1f},{} h12 v8 h12", x - 4, kTop - 4));
     out += text(x + 25, kTop + kHalfLetter, "Pareto front", "start");
-    x += 46 + text_width("Pareto front");
+    x += 42 + text_width("Pareto front", kKeyLetterWidth);
   }
   const auto any = [&](MarkState state) {
     return std::any_of(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.state == state; });
