@@ -18,15 +18,16 @@ inline Image8 small_picture(int width, int height, int shift) {
       const int dx = x - width / 2 - shift, dy = y - height / 2;
       const bool inside = 9 * (dx * dx + dy * dy) < height * height;
       const int slope = 40 + 160 * y / height;
-      for (const int value : {inside ? 200 : slope, inside ? 80 + 2 * shift : slope, inside ? 40 : slope + 20})
+      for (const int value :
+           {inside ? 200 : slope, inside ? 80 + 2 * shift : slope, inside ? 40 : slope + 20})
         image.rgb.push_back(static_cast<std::uint8_t>(std::clamp(value, 0, 255)));
     }
   return image;
 }
 
 // A finished point of one run of 7, its range of times 10 % to either side.
-inline BenchPoint bench_point(const std::string& renderer, const std::string& knob, const std::string& value, double ms,
-                              double rmse) {
+inline BenchPoint bench_point(const std::string& renderer, const std::string& knob, const std::string& value,
+                              double ms, double rmse) {
   BenchPoint point;
   point.config = {{"renderer", renderer}, {"samples", "1"}, {"depth", "scene"}, {"precision", "exact"}};
   for (KnobValue& each : point.config)
@@ -48,7 +49,8 @@ inline void set_kinds(BenchPoint& point, double arithmetic, double model, double
 }
 
 // A scene with a point of every sort: on the front, dominated, failing a gate, without any error; and a summary.
-inline void add_scene(BenchResult& result, const std::string& path, const std::string& title, int width, int height) {
+inline void add_scene(BenchResult& result, const std::string& path, const std::string& title, int width,
+                      int height) {
   const std::size_t scene = result.scenes.size(), first = result.points.size();
   BenchScene info;
   info.path = path;
@@ -92,7 +94,7 @@ inline void add_scene(BenchResult& result, const std::string& path, const std::s
     points[k].difference = small_picture(width, height, static_cast<int>(40 - 5 * k));
     points[k].difference_gain = 16;
   }
-  points[7].picture = points[1].picture;   // float sees the same here
+  points[7].picture = points[1].picture;  // float sees the same here
   result.points.insert(result.points.end(), points.begin(), points.end());
   result.configs = points.size();
 

@@ -165,7 +165,7 @@ def check_silence(browser, state):
 
 
 def check_pair(browser):
-    shown = "[...document.querySelectorAll('.pair figure')].map(f => getComputedStyle(f).visibility).join()"
+    shown = "[...document.querySelector('.pair').querySelectorAll('figure')].map(f => getComputedStyle(f).visibility).join()"
     side_by_side = browser.shot(".pair .stage")
 
     browser.click(".pair label:nth-of-type(2)")
@@ -211,16 +211,85 @@ def check_steps(browser):
     check("steps: Back does not show the second", browser.value(shown) == "0100")
 
 
-def check_keyboard(browser):
+def check_choice(browser):
+    """A select box shows another picture in the pair, with its name."""
+    side = "document.querySelector('.pair figure:nth-of-type(2)')"
+    shown = f"[{side}.querySelector('img').src, {side}.textContent]"
+    before = browser.value(shown)
+    browser.value("document.querySelector('.pair select[data-side=right]').focus()")
+    browser.press("Home", 36)
+    after = browser.value(shown)
+    check("choice: a key in the select box changes no picture", after[0] != before[0])
+    check("choice: the caption is not the choice's name", after[1] == browser.value(
+        "document.querySelector('.pair select[data-side=right]').options[0].label"))
+    browser.press("End", 35)
+    check("choice: a picture of the page is not what is shown", browser.value(
+        f"document.getElementById(document.querySelector('.pair select[data-side=right]').value).src === {side}.querySelector('img').src"))
+
+
+def check_plot(browser):
+    """The marks of a plot show their pictures: under the mouse, and by the arrow keys."""
+    panel = "document.querySelector('.pointed')"
+    shown = f"[{panel}.querySelector('p').textContent, ...[...{panel}.querySelectorAll('img')].map(i => i.src)]"
+    marks = browser.value("document.querySelector('.explore').querySelectorAll('.mark').length")
+    check("plot: not one stop for the Tab key", browser.value(
+        "document.querySelector('.explore').querySelectorAll('.mark[tabindex=\"0\"]').length") == 1)
+    browser.value("document.querySelector('.mark[tabindex=\"0\"]').focus()")
+    seen = []
+    for _ in range(marks):
+        browser.press("ArrowRight", 39)
+        words, *pictures = browser.value(shown)
+        check("plot: a focused mark does not say what it is",
+              words and words == browser.value("document.activeElement.querySelector('title').textContent"))
+        check(f"plot: a focused mark shows {len(pictures)} pictures, not two", len(pictures) == 2)
+        seen.append(words)
+    check("plot: the arrow keys do not reach every mark", len(set(seen)) == marks)
+    check("plot: its pictures are not to be seen", browser.value(
+        f"[...{panel}.querySelectorAll('img')].every(i => i.naturalWidth > 0 && i.offsetHeight > 50)"))
+    focused = browser.value(shown)
+    other = browser.value("""(() => { const marks = [...document.querySelector('.explore').querySelectorAll('.mark')];
+        const free = marks.find(m => { const r = m.querySelector('.shape').getBoundingClientRect();
+            return m !== document.activeElement &&
+                   m.contains(document.elementFromPoint(r.x + r.width / 2, r.y + r.height / 2)); });
+        const r = free.querySelector('.shape').getBoundingClientRect();
+        return [r.x + r.width / 2, r.y + r.height / 2, free.querySelector('title').textContent]; })()""")
+    browser.mouse("mouseMoved", other[0], other[1])
+    check("plot: a mark under the mouse does not show its pictures", browser.value(shown)[0] == other[2])
+    check("plot: a mark under the mouse shows those of another", browser.value(shown) != focused)
+
+
+def check_table(browser):
+    """A click on a heading sorts a table up, the next one down; a number counts as such."""
+    column = "[...document.querySelector('table.sortable').tBodies[0].rows].map(r => parseFloat(r.cells[2].textContent))"
+    heading = "table.sortable thead th:nth-child(3)"
+    unsorted = browser.value(column)
+    browser.click(heading + " button")
+    check("table: a click does not sort upwards", browser.value(column) == sorted(unsorted))
+    check("table: does not say that it is sorted upwards", browser.value(
+        f"document.querySelector('{heading}').getAttribute('aria-sort')") == "ascending")
+    browser.press(" ", 32)
+    check("table: the space bar does not sort downwards", browser.value(column) == sorted(unsorted, reverse=True))
+    check("table: does not say that it is sorted downwards", browser.value(
+        f"document.querySelector('{heading}').getAttribute('aria-sort')") == "descending")
+    browser.click("table.sortable thead th:nth-child(1) button")
+    names = browser.value("[...document.querySelector('table.sortable').tBodies[0].rows].map(r => r.cells[0].textContent)")
+    check("table: names are not sorted", names == browser.value(f"{json.dumps(names)}.sort((a, b) => a.localeCompare(b))"))
+    check("table: two columns claim to be sorted", browser.value(
+        "document.querySelector('table.sortable').querySelectorAll('[aria-sort]').length") == 1)
+
+
+def check_keyboard(browser, names):
     """Everything that can be used is reached by the Tab key, and says so."""
     browser.value("document.activeElement.blur()")
     reached = []
-    for _ in range(8):
+    for _ in range(12):
         browser.press("Tab", 9)
-        reached.append(browser.value("document.activeElement.className || document.activeElement.name"))
-    for name in ("pair", "flip", "ledger", "back", "next"):
-        check(f"keyboard: Tab does not reach {name}, only {reached}", name in reached)
-    browser.value("document.querySelector('.next').focus()")
+        reached.append(browser.value(
+            "document.activeElement.getAttribute('class') || document.activeElement.name || document.activeElement.dataset.side"))
+    for name in names:
+        check(f"keyboard: Tab does not reach {name}, only {reached}", any(name in (each or "").split() for each in reached))
+    browser.value("document.querySelector('button').focus()")
+    browser.press("Tab", 9)
     check("keyboard: focus is not to be seen",
           browser.value("getComputedStyle(document.activeElement).outlineStyle") == "solid")
 
@@ -236,9 +305,15 @@ def main():
         browser.resize(1280, 800)
         browser.open(url)
         check_page(browser, "as it is")
-        check_keyboard(browser)
+        if browser.value("!!document.querySelector('.explore')"):   # a bench's
+            check_keyboard(browser, ("mark", "pair-0", "flip", "left", "right", "wide"))
+            check_plot(browser)
+            check_choice(browser)
+            check_table(browser)
+        else:                                                         # a comparison's
+            check_keyboard(browser, ("pair", "flip", "ledger", "back", "next"))
+            check_steps(browser)
         check_pair(browser)
-        check_steps(browser)
         check_silence(browser, "as it is")
 
         # That silence means something: a request is refused by the page's own policy, and heard of here.
@@ -252,7 +327,7 @@ def main():
         check("without JavaScript: a picture is hidden", browser.value(
             "[...document.images].every(i => i.offsetHeight > 0 && getComputedStyle(i).visibility === 'visible')"))
         check("without JavaScript: a control that does nothing", browser.value(
-            "[...document.querySelectorAll('input, button')].every(i => i.offsetHeight === 0)"))
+            "[...document.querySelectorAll('input, button, select')].every(i => i.offsetHeight === 0)"))
         check_silence(browser, "without JavaScript")
         browser.close()
     for fault in faults:

@@ -12,28 +12,31 @@ Html kind_cell(const BenchPoint& point, std::size_t kind) {
   return point.by_kind[kind] ? error_cell(point.by_kind[kind]->whole.metrics.rms) : kUnknown;
 }
 
-Html state_cell(const BenchResult& result, const BenchPoint& point) {
-  if (!point.failures.empty()) return html("fails: {}", escaped(failure_words(point), 600));
-  if (!result.timed) return html("valid");
-  return point.on_front ? html("<b>front</b>") : html("dominated");
+const char* state(const BenchResult& result, const BenchPoint& point) {
+  if (!point.failures.empty()) return "fails";
+  if (!result.timed) return "valid";
+  return point.on_front ? "front" : "dominated";
 }
 
 Html error_table(const BenchResult& result, const std::vector<std::size_t>& order) {
   Table table{"Errors",
               {"configuration", "state", "RMSE", "arithmetic", "model", "sampling", "greatest", "at pixel",
-               "mismatches", "covered", "relMSE", "mean", "99.9 %", "PSNR in dB", "depth", "not finite"},
+               "mismatches", "covered", "relMSE", "mean", "99.9 %", "PSNR in dB", "depth", "not finite",
+               "fails what"},
               {},
-              true};
+              true,
+              {1, 15}};
   for (const std::size_t i : order) {
     const BenchPoint& point = result.points[i];
     const ErrorMeasure& error = point.error.whole;
     const Metrics& m = error.metrics;
-    table.rows.push_back(
-        {html("{}", config_name(point)), state_cell(result, point), error_cell(m.rms), kind_cell(point, 0),
-         kind_cell(point, 1), kind_cell(point, 2), error_cell(m.max.value), html("{},{}", m.max.x, m.max.y),
-         number(point.mismatches), error_cell(point.error.covered.metrics.rms), error_cell(error.relmse),
-         error_cell(m.mean), error_cell(error.p999), m.psnr ? html("{:.1f}", *m.psnr) : html("equal"),
-         error_cell(error.depth), number(m.non_finite)});
+    table.rows.push_back({html("{}", config_name(point)), html("{}", state(result, point)), error_cell(m.rms),
+                          kind_cell(point, 0), kind_cell(point, 1), kind_cell(point, 2),
+                          error_cell(m.max.value), html("{},{}", m.max.x, m.max.y), number(point.mismatches),
+                          error_cell(point.error.covered.metrics.rms), error_cell(error.relmse),
+                          error_cell(m.mean), error_cell(error.p999),
+                          m.psnr ? html("{:.1f}", *m.psnr) : html("equal"), error_cell(error.depth),
+                          number(m.non_finite), html("{}", escaped(failure_words(point), 600))});
   }
   return html(
       R"(<p>Errors are measured in linear light against the reference image, and RMSE by kind too. Greatest is that of a
@@ -97,15 +100,22 @@ Html facts_html(const std::string& caption, const std::vector<Fact>& facts) {
 Html over_scenes_html(const BenchResult& result) {
   if (result.scenes.size() < 2) return {};
   Table table{"Each configuration's time and error divided by the default's: below 1 is better",
-              {"configuration", "time", "error"},
+              {"configuration", "time", "worst", "in scene", "error", "worst", "in scene"},
               {},
-              true};
-  const auto cell = [&](const std::optional<RatioOverScenes>& ratio) {
-    return ratio ? html("{}", ratio_words(result, *ratio)) : kUnknown;
+              true,
+              {3, 6}};
+  const auto add = [&](std::vector<Html>& row, const std::optional<RatioOverScenes>& ratio) {
+    if (!ratio) return void(row.insert(row.end(), 3, kUnknown));
+    row.push_back(html("<b>{:.3g}</b>", ratio->geometric_mean));
+    row.push_back(html("{:.3g}", ratio->worst));
+    row.push_back(html("{}", escaped(scene_name(result.scenes[ratio->worst_scene]), 40)));
   };
-  for (const ConfigOverScenes& each : result.over_scenes)
-    table.rows.push_back({html("{}", config_name(result.points[each.config])),
-                          result.timed ? cell(each.time) : kUnknown, cell(each.error)});
+  for (const ConfigOverScenes& each : result.over_scenes) {
+    std::vector<Html>& row = table.rows.emplace_back();
+    row.push_back(html("{}", config_name(result.points[each.config])));
+    add(row, result.timed ? each.time : std::nullopt);
+    add(row, each.error);
+  }
   return html(R"(<section>
 <h2>Over {} scenes</h2>
 <p>Errors of different scenes mean different things, so none are averaged: only ratios are, by their geometric mean, and

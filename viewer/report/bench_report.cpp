@@ -113,7 +113,7 @@ Html swipe(const Page& page, std::size_t scene) {
 Html gallery_picture(const Page& page, const Image8& image, std::size_t shown_as, std::size_t i,
                      const char* kind, const std::string& alt) {
   if (shown_as != i)
-    return html("<p class=\"same\">the {} of {}, bit for bit</p>", kind,
+    return html("<p class=\"same\">the {} of {}, pixel for pixel</p>", kind,
                 config_name(page.result.points[shown_as]));
   if (image.rgb.empty()) return {};
   return image_html({image, alt, {}, fmt::format("{}-{}", kind, i)});

@@ -143,10 +143,15 @@ Html steps_html(std::string_view name, const std::vector<StepPage>& pages) {
 
 Html table_html(const Table& table) {
   Html head, rows;
-  for (const std::string& column : table.columns) head += html("<th scope=\"col\">{}</th>", column);
+  const auto style = [&](std::size_t column) {
+    const bool words = std::find(table.of_words.begin(), table.of_words.end(), column) != table.of_words.end();
+    return Html{words ? " class=\"words\"" : ""};
+  };
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    head += html("<th scope=\"col\"{}>{}</th>", style(c), table.columns[c]);
   for (const std::vector<Html>& row : table.rows) {
     rows += html("<tr><th scope=\"row\">{}</th>", row.front());
-    for (auto cell = row.begin() + 1; cell != row.end(); ++cell) rows += html("<td>{}</td>", *cell);
+    for (std::size_t c = 1; c < row.size(); ++c) rows += html("<td{}>{}</td>", style(c), row[c]);
     rows += html("</tr>\n");
   }
   if (!head.empty()) head = html("<thead><tr>{}</tr></thead>\n", head);

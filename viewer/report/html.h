@@ -96,6 +96,7 @@ struct Table {
   std::vector<std::string> columns;     // may be empty: no heading
   std::vector<std::vector<Html>> rows;  // each as long as the others
   bool sortable = false;
+  std::vector<std::size_t> of_words = {};  // columns set flush left, as the first is; numbers go flush right
 };
 Html table_html(const Table& table);
 

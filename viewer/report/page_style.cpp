@@ -175,14 +175,13 @@ button { border-radius: 0.4rem; }
 .wide th, .wide td { white-space: nowrap; }
 .wide th, .wide td { padding-top: 0.2rem; padding-bottom: 0.2rem; }
 .wide thead th:not(:first-child), .wide td { padding-left: 0.9rem; }
-.wide thead th:nth-child(2), .wide td:nth-child(2) { text-align: left; }
-.wide td:nth-child(2) { white-space: normal; min-width: 9rem; }
+.wide thead th.words, .wide td.words { text-align: left; }
 .wide tbody tr:hover { background: var(--panel); }
 th button { font: inherit; color: inherit; background: none; border: 0; padding: 0; text-align: inherit; }
 th button::after { content: "\2195"; opacity: 0.3; margin-left: 0.3em; }
 th[aria-sort=ascending] button::after { content: "\2191"; opacity: 1; }
 th[aria-sort=descending] button::after { content: "\2193"; opacity: 1; }
-.controls label.choose { background: none; border: 0; padding: 0.45rem 0; margin: 0; cursor: auto; }
+.controls label.choose { background: none; border: 0; padding: 0.45rem 0; margin: 0; cursor: auto; min-width: 0; }
 select { font: inherit; max-width: 100%; padding: 0.4rem 0.5rem; background: var(--panel); color: var(--ink);
          border: 1px solid var(--rule); border-radius: 0.4rem; }
 .facts th { white-space: nowrap; }

@@ -20,7 +20,7 @@ constexpr double kRoomForLabels = 0.18;  // above the greatest error, as a part 
 constexpr double kFloorRoom = 34;        // below the break of the axis
 constexpr double kRadius = 5;            // of a mark
 constexpr double kReach = 11;            // of what takes the mouse for it
-constexpr double kLetterWidth = 6.3, kKeyLetterWidth = 7.2, kLineHeight = 14,
+constexpr double kLetterWidth = 7.0, kKeyLetterWidth = 7.2, kLineHeight = 14,
                  kHalfLetter = 4.5;  // of a label
 constexpr std::size_t kLongestLine = 34;
 
@@ -215,7 +215,7 @@ Html labels(const std::vector<Mark>& marks, const std::vector<glm::dvec2>& corne
     glm::dvec2 size(0);
     for (const std::string& line : marks[i].label) {
       lines.back().push_back(shortened(line));
-      size = {std::max(size.x, text_width(lines.back().back())), size.y + kLineHeight};
+      size = {std::max(size.x, text_width(lines.back().back()) + 4), size.y + kLineHeight};
       request.sizes.insert(request.sizes.begin(), size);
     }
   }
