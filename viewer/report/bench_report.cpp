@@ -14,7 +14,7 @@ namespace {
 
 struct Page {
   const BenchResult& result;
-  const BenchPictures pictures;
+  BenchPictures pictures;
 };
 
 // "1 plane", "2 planes".

@@ -183,6 +183,7 @@ std::string reference_words(const ReferenceImage& reference) {
                    "which tries every object on every ray.",
                    error_words(*reference.against_brute_force))
              : "It was not compared with raytrace-reference, which would take too long on this scene.";
+  if (reference.ms > 0) out += fmt::format(" It took {:.3g} s to make.", reference.ms / 1e3);
   return out;
 }
 

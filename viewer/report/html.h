@@ -69,16 +69,16 @@ Html figure_html(const Figure& figure);
 // Its picture alone.
 Html image_html(const Figure& figure);
 
-// Two pictures of one size: beside each other, under a slider, or flipped in place. Without JavaScript: beside each
-// other. `name`: of this pair within the page, a word. With choices, either side shows any of them: a label and the id
-// of the picture's element elsewhere on the page; the two that stand there at first are given by their indices.
+// What either side of a pair can show.
 struct PairChoices {
   struct Choice {
-    std::string label, id;
+    std::string label, id;  // the id of a picture's element elsewhere on the page
   };
   std::vector<Choice> all;
-  std::size_t left = 0, right = 0;
+  std::size_t left = 0, right = 0;  // what they show at first
 };
+// Two pictures of one size: beside each other, under a slider, or flipped in place. Without JavaScript: beside each
+// other. `name`: of this pair within the page, a word.
 Html pair_html(std::string_view name, const Figure& left, const Figure& right, const PairChoices& choices = {});
 
 // Pages of which JavaScript shows one at a time, so that pictures in the same place flip; without it all are shown in

@@ -54,11 +54,10 @@ bool overlaps_any(const Rectangle& box, const std::vector<Rectangle>& all) {
   return std::any_of(all.begin(), all.end(), [&](const Rectangle& each) { return overlap(each, box); });
 }
 
+// `taken` holds labels from first_label on, which no line to a mark may cross.
 bool is_free(const LabelRequest& request, const LabelPlace& place, const std::vector<Rectangle>& taken,
              std::size_t first_label) {
-  if (std::any_of(taken.begin(), taken.end(),
-                  [&](const Rectangle& each) { return overlap(each, place.box); }))
-    return false;
+  if (overlaps_any(place.box, taken)) return false;
   return !place.leader ||
          std::none_of(taken.begin() + static_cast<std::ptrdiff_t>(first_label), taken.end(),
                       [&](const Rectangle& label) { return line_meets(request.mark, *place.leader, label); });

@@ -16,13 +16,14 @@ namespace sidelight {
 namespace {
 
 constexpr double kLeft = 64, kRightRoom = 14, kTop = 14, kLegendRoom = 30, kBottomRoom = 50;
-constexpr double kRoomForLabels = 0.18;  // above the greatest error, as a part of the axis
-constexpr double kFloorRoom = 34;        // below the break of the axis
-constexpr double kRadius = 5;            // of a mark
-constexpr double kReach = 11;            // of what takes the mouse for it
-constexpr double kLetterWidth = 7.0, kKeyLetterWidth = 7.2, kLineHeight = 14,
-                 kHalfLetter = 4.5;  // of a label
-constexpr std::size_t kLongestLine = 34;
+constexpr double kRoomForLabels = 0.18;               // above the greatest error, as a part of the axis
+constexpr double kFloorRoom = 34;                     // below the break of the axis
+constexpr double kRadius = 5;                         // of a mark
+constexpr double kReach = 11;                         // of what takes the mouse for it
+constexpr double kLetterWidth = 7, kLineHeight = 14;  // of a label
+constexpr double kKeyLetterWidth = 7.2;               // of the legend, whose letters are larger
+constexpr double kHalfLetter = 4.5;                   // from the middle of a line of text to its foot
+constexpr std::size_t kLongestLine = 34;              // of a label, in letters
 
 // Where things stand in the drawing.
 struct Layout {
