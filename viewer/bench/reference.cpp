@@ -11,10 +11,12 @@ namespace {
 
 // Where brute force takes seconds, not hours: tests of a ray against a primitive.
 constexpr double kAffordableTests = 1e8;
+constexpr int kProbeWidth = 160;
 
-double rays_of(const RenderStats& stats) {
+double rays_an_eye_ray(const RenderStats& stats) {
   const RayCounts& rays = stats.rays;
-  return static_cast<double>(rays.primary + rays.shadow + rays.reflection + rays.refraction);
+  return static_cast<double>(rays.primary + rays.shadow + rays.reflection + rays.refraction) /
+         static_cast<double>(rays.primary);
 }
 
 double number(const std::string& text) {
@@ -35,36 +37,45 @@ std::string Reference::key(int n) const {
                      scene.width, scene.height, n, n);
 }
 
-// Tried out on a picture of a quarter of the size each way.
-int Reference::full_depth() {
+// Tried out on the same view with about kProbeWidth samples in a row: on fewer pixels where there are many, and with
+// more samples where there are few. Level by level while rays multiply, so that no step is a leap; else ever faster.
+Model Reference::full_model() {
   const Scene& scene = stage_.scene();
-  const Camera camera = make_camera(scene.camera, (scene.width + 3) / 4, (scene.height + 3) / 4, 1);
-  const auto probe = [&](int depth) { return stage_.render_in_double({{}, depth, 0, false}, camera).stats; };
-  int depth = scene.trace.depth;
-  RenderStats stats = probe(depth);
-  while (stats.cut_weight >= 0x1p-24 && depth < kMostDepth &&
-         rays_of(stats) < kMostRays * static_cast<double>(stats.rays.primary)) {
-    depth = std::min(depth + depth / 2 + 1, kMostDepth);
-    stats = probe(depth);
+  const int smaller = (scene.width + kProbeWidth - 1) / kProbeWidth;
+  const Camera camera = make_camera(scene.camera, scene.width / smaller, std::max(scene.height / smaller, 1),
+                                    std::max(kProbeWidth / scene.width, 1));
+  Model affordable{{}, 1, 0, false};
+  for (int depth = 1, step = 1;;) {
+    const RenderStats stats = stage_.render_in_double({{}, depth, 0, false}, camera).stats;
+    const double rays = rays_an_eye_ray(stats);
+    if (rays > kMostRays) break;
+    step = rays < 1.1 * rays_an_eye_ray_ ? 2 * step : 1;
+    affordable.depth = depth;
+    rays_an_eye_ray_ = rays;
+    const bool all = stats.cut_weight < 0x1p-24 && depth >= scene.trace.depth;
+    if (all || depth == kMostDepth) break;
+    depth = std::min(depth + step, kMostDepth);
   }
-  rays_an_eye_ray_ = rays_of(stats) / static_cast<double>(stats.rays.primary);
-  return depth;
+  if (affordable.depth < scene.trace.depth)
+    return {{}, scene.trace.depth, scene.trace.contribution_cut, false};
+  return affordable;
 }
 
 Reference::Picture Reference::make(int n) {
   made_any_ = true;
   const Scene& scene = stage_.scene();
   Picture out;
-  out.depth = n == 1 ? full_depth() : picture(1).depth;
-  const Model full{{}, out.depth, 0, false};
+  out.model = n == 1 ? full_model() : picture(1).model;
   const Camera camera = stage_.camera(n);
-  Frame frame = stage_.render_in_double(full, camera);
+  Frame frame = stage_.render_in_double(out.model, camera);
   out.cut_weight = frame.stats.cut_weight;
   const double tests = rays_an_eye_ray_ * static_cast<double>(frame.pixels()) *
                        static_cast<double>(scene.primitive_object.size());
-  Metadata notes{{"depth", fmt::format("{}", out.depth)}, {"cut_weight", fmt::format("{}", out.cut_weight)}};
+  Metadata notes{{"depth", fmt::format("{}", out.model.depth)},
+                 {"cut", fmt::format("{}", out.model.cut)},
+                 {"cut_weight", fmt::format("{}", out.cut_weight)}};
   if (n == 1 && tests <= kAffordableTests) {
-    out.against_brute_force = rmse(frame.color, stage_.render_reference(full, camera).color, scene);
+    out.against_brute_force = rmse(frame.color, stage_.render_reference(out.model, camera).color, scene);
     notes.emplace_back("against_brute_force", fmt::format("{}", *out.against_brute_force));
   }
   cache_.keep(key(n), frame, notes);
@@ -75,8 +86,10 @@ Reference::Picture Reference::make(int n) {
 const Reference::Picture& Reference::picture(int n) {
   if (const auto at = pictures_.find(n); at != pictures_.end()) return at->second;
   if (auto kept = cache_.find(key(n), stage_.scene().width, stage_.scene().height)) {
-    Picture out{
-        static_cast<int>(number(kept->notes["depth"])), number(kept->notes["cut_weight"]), {}, kept->color};
+    Picture out;
+    out.model = {{}, static_cast<int>(number(kept->notes["depth"])), number(kept->notes["cut"]), false};
+    out.cut_weight = number(kept->notes["cut_weight"]);
+    out.color = std::move(kept->color);
     if (const std::string& text = kept->notes["against_brute_force"]; !text.empty())
       out.against_brute_force = number(text);
     return pictures_.emplace(n, std::move(out)).first->second;
@@ -91,7 +104,8 @@ ReferenceImage Reference::converge(const std::function<void(int n)>& progress) {
   for (int n = 1; n <= 16; n *= 2) {
     if (progress) progress(n);
     const Picture& now = picture(n);
-    image.depth = now.depth;
+    image.depth = now.model.depth;
+    image.cut = now.model.cut;
     image.cut_weight = now.cut_weight;
     if (n == 1) {
       image.against_brute_force = now.against_brute_force;

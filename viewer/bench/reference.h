@@ -2,9 +2,10 @@
 // The picture that errors are measured against: the ray tracer's own rays with all light in double, nothing left out, and
 // so many samples that more of them change little. Its shorter forms, with fewer samples, tell the kinds of error apart.
 //
-// Depth: half as much again, from the scene's until the mean weight of the rays not sent is below 2^-24, which is
-// less than a float can tell from white; or until kMostDepth, or kMostRays rays an eye ray, where glass would make them
-// without end. No cut.
+// Depth: from the scene's on until the mean weight of the rays not sent is below 2^-24, which is less than a float can
+// tell from white, and no cut; or until kMostDepth; or as long as it takes no more than kMostRays rays an eye ray, since
+// rays within glass within glass multiply without end. Where even the scene's own depth takes more, the scene's own
+// depth and cut: nothing is then nearer the truth than what the scene asks for. The weight left out is reported.
 //
 // Samples: n x n with n = 1, 2, 4, 8, 16, until the RMSE between two pictures in a row is below kReferenceBound. With q
 // the ratio of the last two such steps, what remains is estimated as the rest of a geometric series, q / (1 - q) of the
@@ -22,14 +23,14 @@ namespace sidelight {
 
 inline constexpr double kReferenceBound = 1.0 / 255;  // one step of 8 bits
 inline constexpr int kMostDepth = 1000;
-inline constexpr double kMostRays = 32;
+inline constexpr double kMostRays = 16;
 
 class Reference {
  public:
   Reference(Stage& stage, PictureCache cache) : stage_(stage), cache_(std::move(cache)) {}
 
   struct Picture {
-    int depth = 0;
+    Model model;
     double cut_weight = 0;
     std::optional<double> against_brute_force;  // of n = 1
     std::vector<glm::vec3> color;
@@ -44,13 +45,13 @@ class Reference {
 
  private:
   std::string key(int n) const;
-  int full_depth();
+  Model full_model();
   Picture make(int n);
 
   Stage& stage_;
   PictureCache cache_;
   bool made_any_ = false;
-  double rays_an_eye_ray_ = 0;  // at that depth
+  double rays_an_eye_ray_ = 0;  // with that model
   std::map<int, Picture> pictures_;
 };
 

@@ -59,8 +59,9 @@ struct BenchPoint {
 
 // The picture that errors are measured against.
 struct ReferenceImage {
-  int n = 0;                  // n x n samples a pixel; 0: the sweep was interrupted before it was finished
-  int depth = 0;              // rays along a path, the eye ray included
+  int n = 0;       // n x n samples a pixel; 0: the sweep was interrupted before it was finished
+  int depth = 0;   // rays along a path, the eye ray included
+  double cut = 0;  // the least weight of a ray that is sent: the scene's, where rays multiply without end
   double cut_weight = 0;      // mean weight of the rays that even this depth did not send
   std::vector<double> steps;  // RMSE between n = 1 and 2, 2 and 4, ...
   double bound = 0;           // it stopped when a step fell below this ...

@@ -57,6 +57,7 @@ Json reference_json(const BenchScene& scene, bool timed) {
   Json json{{"scene", printable(scene.path, 1000)},
             {"samples", image.n * image.n},
             {"depth", image.depth},
+            {"cut", image.cut},
             {"cut_weight", image.cut_weight},
             {"rmse_steps", image.steps},
             {"bound", image.bound},
