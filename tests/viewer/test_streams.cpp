@@ -18,7 +18,7 @@ std::vector<Arguments> every_verb(const std::string& scene) {
                                   {"render", scene, "-o", "a.png"},
                                   {"render", scene, "-o", "a.exr", "--layers", "all", "--stats", "a.json"},
                                   {"compare", scene, "-o", "out"},
-                                  {"bench", scene, "-o", "bench", "--set", "samples=1"},
+                                  {"bench", scene, "-o", "bench", "--set", "samples=1", "--no-times"},
                                   {"explain", scene, "--pixel", "8,6"},
                                   {"explain", scene, "--pixel", "8,6", "--json", "b.json"}};
 #ifdef SIDELIGHT_HAVE_OSMESA
@@ -60,7 +60,7 @@ TEST_CASE("streams: standard output is data only, for the verbs that have some")
   write_warned_scene(here);
   for (const Arguments& command : every_verb("warned.toml")) {
     CAPTURE(command[0]);
-    const bool has_data = command[0] == "info" || command[0] == "explain";
+    const bool has_data = command[0] == "info" || command[0] == "explain" || command[0] == "bench";
     CHECK(here.run(command).out.empty() == !has_data);
   }
   for (const Arguments& command : {Arguments{"explain", "warned.toml", "--pixel", "8,6", "--json", "-"},

@@ -102,9 +102,9 @@ void PictureJudge::judge(const Setting& setting, BenchPoint& point) {
   point.error.whole.depth = point.error.covered.depth = samples.depth_error;
   point.mismatches = samples.mismatches;
   if (point.mismatches > 0)
-    point.failures.push_back(fmt::format("{} samples show another surface", point.mismatches));
+    point.failures.push_back(fmt::format("samples that show another surface: {}", point.mismatches));
   if (const std::uint64_t bad = point.error.whole.metrics.non_finite; bad > 0)
-    point.failures.push_back(fmt::format("{} values are not finite", bad));
+    point.failures.push_back(fmt::format("values that are not finite: {}", bad));
 
   // By kind.
   const std::vector<glm::vec3>& truth = truth_of(stage_.model_of(setting), setting.n);

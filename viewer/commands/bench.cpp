@@ -12,6 +12,8 @@
 #include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
 #include "viewer/commands/progress.h"
+#include "viewer/report/bench_report.h"
+#include "viewer/report/bench_table.h"
 
 namespace sidelight {
 namespace {
@@ -90,6 +92,9 @@ BenchResult sweep(const BenchFlags& flags, const std::vector<Config>& configs) {
 // The one place where outputs are written.
 void write_outputs(const BenchResult& result, const std::string& folder) {
   write_text_file(folder + "/bench.json", bench_json(result));
+  write_text_file(folder + "/bench.csv", bench_csv(result));
+  write_text_file(folder + "/report.html", bench_report(result));
+  for (const auto& [name, svg] : bench_plots(result)) write_text_file(folder + "/" + name, svg);
 }
 
 int run_bench(const BenchFlags& flags) {
@@ -99,7 +104,9 @@ int run_bench(const BenchFlags& flags) {
   result.command = command_of(flags);
   judge(result);
   write_outputs(result, flags.folder);
-  if (!flags.job.quiet) fmt::print(stderr, "wrote {}/bench.json\n", printable(flags.folder));
+  fmt::print("{}", bench_table(result));
+  if (!flags.job.quiet)
+    fmt::print(stderr, "wrote {}/report.html, bench.json, bench.csv and plots\n", printable(flags.folder));
   if (result.interrupted) throw Interrupted();
   return 0;
 }
@@ -111,7 +118,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("bench", "speed against error: what each setting costs, and what it buys");
   verb->add_option("SCENE", flags->scenes, "scene files (TOML)")->required()->type_name("");
-  verb->add_option("-o,--output", flags->folder, "folder DIR for bench.json and the rest")->required();
+  verb->add_option("-o,--output", flags->folder, "folder DIR for report.html, bench.json, bench.csv and plots")->required();
   verb->add_option("-r,--resolution", flags->job.size, "picture size WxH, instead of each scene's");
   verb->add_option("--sweep", flags->sweep, "which settings: default, or one knob of those below")
       ->type_name("NAME");
