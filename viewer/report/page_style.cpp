@@ -168,8 +168,9 @@ button { border-radius: 0.4rem; }
                  display: grid; place-content: center; text-align: center; font-size: 0.85rem; line-height: 1.35; }
 .gallery figcaption { font-size: 0.85rem; line-height: 1.35; margin-top: 0.2rem; }
 .bench .pair[data-mode=two-up] .stage {
-  grid-template-columns: repeat(auto-fit, minmax(min(16rem, 100%), var(--picture-width)));
+  grid-template-columns: repeat(2, minmax(0, var(--picture-width)));
 }
+@media (max-width: 36rem) { .bench .pair[data-mode=two-up] .stage { grid-template-columns: minmax(0, 1fr); } }
 .wide { overflow-x: auto; }
 .wide table { max-width: none; font-size: 0.92rem; }
 .wide th, .wide td { white-space: nowrap; }
