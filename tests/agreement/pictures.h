@@ -76,15 +76,6 @@ inline RenderOptions keeping(LayerMask layers) {
   return options;
 }
 
-inline Frame rastered(const Scene& scene, const Camera& camera,
-                      RenderOptions options = keeping(kRasterLayers)) {
-  return raster::render(*raster::prepare(scene), camera, options);
-}
-inline Frame traced(const Scene& scene, const Camera& camera,
-                    RenderOptions options = keeping(kRaytraceLayers)) {
-  return raytrace::render(*raytrace::prepare(scene), camera, options);
-}
-
 // Calls visit(name, array of a, array of b, entries per pixel) for every array of a frame.
 template <class Visit>
 void for_each_array(const Frame& a, const Frame& b, const Visit& visit) {
@@ -125,6 +116,25 @@ inline std::string differences(const Frame& part, const Frame& whole) {
         }
       });
   return out;
+}
+
+// With every instruction set that this machine has, which must give the same bytes: so each hard case that is drawn holds
+// for all of them.
+inline Frame rastered(const Scene& scene, const Camera& camera, RenderOptions options = keeping(kRasterLayers)) {
+  const auto prepared = raster::prepare(scene);
+  Frame first = raster::render(*prepared, camera, options);
+  const Isa given = options.isa;
+  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+    if (isa == given || !machine_has(isa)) continue;
+    options.isa = isa;
+    const std::string other = differences(raster::render(*prepared, camera, options), first);
+    REQUIRE_MESSAGE(other.empty(), "--isa ", isa_name(isa), " gives another ", other);
+  }
+  return first;
+}
+// The tracer works with doubles one by one: it has no choice of instructions.
+inline Frame traced(const Scene& scene, const Camera& camera, const RenderOptions& options = keeping(kRaytraceLayers)) {
+  return raytrace::render(*raytrace::prepare(scene), camera, options);
 }
 
 // For messages: nine digits tell any two floats apart.

@@ -7,11 +7,11 @@
 #include <glm/common.hpp>
 
 #include "common/scene/shapes.h"
-#include "raytrace/prepared.h"
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/rays.h"
 #include "tests/support/scenes.h"
+#include "tests/support/trees.h"
 #include "tests/support/worst.h"
 
 using namespace sidelight;
@@ -20,14 +20,6 @@ using namespace sidelight::test;
 namespace {
 
 constexpr double kEps = 0x1p-52;
-
-RayRecord tree_of(const raytrace::Prepared& prepared, const glm::dvec3& eye, const glm::dvec3& towards) {
-  CameraSettings settings;
-  settings.eye = eye;
-  settings.look_at = towards;
-  settings.view_height = 0x1p-10;
-  return raytrace::explain(prepared, make_camera(settings, 1, 1, 1), 0, 0);
-}
 
 // The rays of a tree that follow one another by the first child of this kind.
 std::vector<const RayRecord*> chain(const RayRecord& root, RayKind kind) {

@@ -5,6 +5,7 @@
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/exact_picture.h"
+#include "tests/support/lit.h"
 #include "tests/support/scenes.h"
 #include "tests/viewer/program.h"
 
@@ -88,18 +89,9 @@ Scene smooth_ball(const Turn& turn) {
     std::rotate(begin, begin + rotation, begin + 3);
     if (reversed) std::reverse(begin, begin + 3);
   }
-  Scene scene;
   Material material;
   material.diffuse = {0.5, 0.25, 0.75};
-  add_material(scene, material);
-  add_mesh(scene, mesh, {}, {});
-  Light light;
-  light.position = {2, 3, 4};
-  light.intensity = glm::dvec3(1);
-  scene.lights = {light};
-  scene.camera.eye = {0.25, 0.5, 3.5};
-  scene.camera.look_at = {0, 0, 0};
-  return scene;
+  return test::lit(mesh, material, {0.25, 0.5, 3.5});
 }
 
 }  // namespace

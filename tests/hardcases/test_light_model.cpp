@@ -8,6 +8,7 @@
 #include "tests/hardcases/result.h"
 #include "tests/scene/toml_text.h"
 #include "tests/support/approx.h"
+#include "tests/support/lit.h"
 #include "tests/support/scenes.h"
 
 using namespace sidelight;
@@ -63,20 +64,11 @@ PolygonMesh ball_with_normals(const Scale& scale) {
 constexpr double kShininess = 10;
 
 Scene lit(const PolygonMesh& mesh) {
-  Scene scene;
   Material material;
   material.diffuse = {0.5, 0.25, 0.125};
   material.specular = glm::dvec3(0.5);
   material.shininess = kShininess;
-  add_material(scene, material);
-  add_mesh(scene, mesh, {}, {});
-  Light light;
-  light.position = {2, 3, 4};
-  light.intensity = glm::dvec3(1);
-  scene.lights = {light};
-  scene.camera.eye = {0.3, 0.7, 4};
-  scene.camera.look_at = {0, 0, 0};
-  return scene;
+  return test::lit(mesh, material, {0.3, 0.7, 4});
 }
 
 }  // namespace

@@ -9,25 +9,17 @@
 
 #include "common/model/optics.h"
 #include "common/scene/shapes.h"
-#include "raytrace/prepared.h"
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/rays.h"
 #include "tests/support/scenes.h"
+#include "tests/support/trees.h"
 #include "tests/support/worst.h"
 
 using namespace sidelight;
 using namespace sidelight::test;
 
 namespace {
-
-RayRecord tree_of(const raytrace::Prepared& prepared, const glm::dvec3& eye, const glm::dvec3& towards) {
-  CameraSettings settings;
-  settings.eye = eye;
-  settings.look_at = towards;
-  settings.view_height = 0x1p-10;
-  return raytrace::explain(prepared, make_camera(settings, 1, 1, 1), 0, 0);
-}
 
 // Calls visit(ray) for the rays of a tree that were sent.
 template <class Visit>
