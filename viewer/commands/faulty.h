@@ -26,8 +26,9 @@ inline constexpr int kSpoiledPairs = 3;
 
 // `rastered` and `traced`: the job's two pictures, with all layers and samples. A pixel is changed where the primitive
 // of a sample, its depth or the colour of either picture is another than without the fault, or a sample's primitive or
-// depth another in one picture than in the other. Not what differs by definition: with tessellated spheres objects are compared, as primitives have other numbers; in float precision
-// depths are not compared, since every one of a triangle is rounded.
+// depth another in one picture than in the other. Not what differs by definition: with tessellated spheres objects are
+// compared, as primitives have other numbers; in float precision depths are not compared, since every one of a triangle
+// is rounded.
 Spoiled find_spoiled(const Job& job, const Frame& rastered, const Frame& traced);
 
 }  // namespace sidelight
