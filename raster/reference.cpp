@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/model/visibility.h"
+#include "common/model/place.h"
 #include "common/parallel.h"
 #include "common/picture/pixel.h"
 #include "raster/raster.h"

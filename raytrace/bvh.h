@@ -109,4 +109,28 @@ std::uint64_t traverse(const Bvh& bvh, const Ray& ray, double limit, const Leaf&
   return entered;
 }
 
+// Calls visit(item) for every item whose box reaches to within `distance` of the point along each axis, and some others.
+template <class Visit>
+void visit_near(const Bvh& bvh, const glm::dvec3& point, double distance, const Visit& visit) {
+  if (bvh.nodes.empty()) return;
+  const auto near = [&](const BvhNode& node) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      if (point[axis] < node.low[i] - distance || point[axis] > node.high[i] + distance) return false;
+    }
+    return true;
+  };
+  std::array<std::uint32_t, Bvh::kMaxDepth + 1> stack;
+  int size = 0;
+  stack[static_cast<std::size_t>(size++)] = 0;
+  while (size > 0) {
+    const BvhNode& node = bvh.nodes[stack[static_cast<std::size_t>(--size)]];
+    if (!near(node)) continue;
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(bvh.items[i]);
+    if (node.count > 0) continue;
+    stack[static_cast<std::size_t>(size++)] = node.first + 1;
+    stack[static_cast<std::size_t>(size++)] = node.first;
+  }
+}
+
 }  // namespace sidelight::raytrace

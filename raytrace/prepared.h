@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "common/model/place.h"
 #include "common/model/shading.h"
 #include "common/model/visibility.h"
 #include "raytrace/bvh.h"
@@ -48,6 +49,10 @@ Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCoun
 // Only what is met after `start` counts.
 Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
             const Hit& start = kRayStart, Precision precision = Precision::exact);
+
+// Where rays start that leave `place`, at which `ray` met `hit`: leaving_point of all that stands near.
+glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,
+                         SignCounts& counts);
 
 // All hits h with h.t in [from.t, last_t] that do not come before `from`, in order.
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,

@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-#include "common/model/visibility.h"
+#include "common/model/place.h"
 #include "common/parallel.h"
 #include "common/picture/pixel.h"
 #include "raytrace/raytrace.h"
@@ -43,10 +43,11 @@ class Tracer {
 
  private:
   dvec3 normal_at(const Hit& hit, const Place& place) const;
+  dvec3 leaving_from(const Ray& ray, const Hit& hit, const Place& place);
   bool sees_light(const dvec3& from, const Light& light);
-  void add_local(const Place& place, const Material& material, const dvec3& N, const dvec3& Nv, const dvec3& V,
+  void add_local(const Place& place, const dvec3& from, const Material& material, const dvec3& N, const dvec3& V,
                  Light3& out);
-  void add_secondary(const Ray& ray, const Place& place, const Material& material, const dvec3& N, const dvec3& Nv,
+  void add_secondary(const Ray& ray, const Place& place, const dvec3& from, const Material& material, const dvec3& N,
                      const Solids& inside, int depth, double weight, Light3& out);
   dvec3 follow(const Ray& ray, const Hit& start, const Solids& inside, const dvec3& c, int depth, double weight,
                std::uint64_t& counter);
@@ -80,13 +81,14 @@ Light3 Tracer::trace(const Ray& ray, Hit start, Solids inside, int depth, double
     inside = after;
   }
   const Material& material = scene_.materials[primitive_material(scene_, out.hit.primitive)];
-  const dvec3 Nv = place.entering ? place.outward : -place.outward;
+  const dvec3 Nv = place.facing;
   dvec3 N = normal_at(out.hit, place);
   if (dot(N, Nv) < 0) N = -N;
   if (dot(N, Nv) == 0) N = Nv;
   out.normal = N;
-  add_local(place, material, N, Nv, -normalize(ray.direction), out);
-  add_secondary(ray, place, material, N, Nv, inside, depth, weight, out);
+  const dvec3 from = leaving_from(ray, out.hit, place);
+  add_local(place, from, material, N, -normalize(ray.direction), out);
+  add_secondary(ray, place, from, material, N, inside, depth, weight, out);
   return out;
 }
 
@@ -100,9 +102,17 @@ dvec3 Tracer::normal_at(const Hit& hit, const Place& place) const {
   return sum == dvec3(0) ? sum : normalize(sum);
 }
 
+// Where rays start that leave: off the surface, and off every other one that stands near.
+dvec3 Tracer::leaving_from(const Ray& ray, const Hit& hit, const Place& place) {
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t primitive = 0; primitive < scene_.primitive_object.size(); ++primitive)
+    if (stands_near(scene_, primitive, ray, hit, place, stats_.signs)) near.push_back(primitive);
+  return leaving_point(scene_, ray, hit, place, near, stats_.signs);
+}
+
 // c1 [ ka Ia + sum_i b_i f_i(d) I_i (kd (N.L) + ks (Rl.V)^s) ], b_i = 0 where something stands before light i
-void Tracer::add_local(const Place& place, const Material& material, const dvec3& N, const dvec3& Nv, const dvec3& V,
-                       Light3& out) {
+void Tracer::add_local(const Place& place, const dvec3& from, const Material& material, const dvec3& N,
+                       const dvec3& V, Light3& out) {
   const dvec3 c1 = material.local;
   out.ambient = c1 * material.ambient * scene_.ambient;
   for (const Light& light : scene_.lights) {
@@ -123,7 +133,7 @@ void Tracer::add_local(const Place& place, const Material& material, const dvec3
     out.specular += specular;
     if (!scene_.trace.shadows || diffuse + specular == dvec3(0)) continue;
     // Facing away from the light, the surface stands in its own: no ray is needed.
-    const bool b = dot(Nv, L) > 0 && sees_light(place.point + place.clearance * Nv, light);
+    const bool b = dot(place.facing, L) > 0 && sees_light(from, light);
     if (!b) out.shadow += diffuse + specular;
   }
   out.color = out.ambient + out.diffuse + out.specular - out.shadow;
@@ -140,12 +150,11 @@ bool Tracer::sees_light(const dvec3& from, const Light& light) {
   return true;
 }
 
-void Tracer::add_secondary(const Ray& ray, const Place& place, const Material& material, const dvec3& N,
-                           const dvec3& Nv, const Solids& inside, int depth, double weight, Light3& out) {
+void Tracer::add_secondary(const Ray& ray, const Place& place, const dvec3& from, const Material& material,
+                           const dvec3& N, const Solids& inside, int depth, double weight, Light3& out) {
   const dvec3 c2 = scene_.trace.reflection ? material.reflect : dvec3(0);
   const dvec3 c3 = scene_.trace.refraction ? material.refract : dvec3(0);
-  const dvec3 D = normalize(ray.direction);
-  const dvec3 from = place.point + place.clearance * Nv;
+  const dvec3 D = normalize(ray.direction), Nv = place.facing;
 
   // Mirror: R = D - 2 (D.N) N, kept above the surface.
   dvec3 R = D - 2 * dot(D, N) * N;

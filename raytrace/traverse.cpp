@@ -105,6 +105,18 @@ Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, S
                                        : blocker_by<intersect_in_float>(prepared, ray, light, start, counts);
 }
 
+glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,
+                         SignCounts& counts) {
+  std::vector<std::uint32_t> near;   // empty, but at edges
+  const auto add = [&](std::uint32_t primitive) {
+    if (stands_near(prepared.scene, primitive, ray, hit, place, counts)) near.push_back(primitive);
+  };
+  for (const std::uint32_t primitive : prepared.planes) add(primitive);
+  visit_near(prepared.bvh, place.point, nearness(ray, hit, place, prepared.bvh.reach), add);
+  std::sort(near.begin(), near.end());
+  return leaving_point(prepared.scene, ray, hit, place, near, counts);
+}
+
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,
                               SignCounts& counts) {
   std::vector<Hit> hits;

@@ -49,8 +49,11 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
   out.object = surface.object;
   out.normal = glm::vec3(surface.normal);
 
-  add_local(surface, path.ray, out);
-  if (prepared_.needs[Need::mirrors] || prepared_.needs[Need::refraction]) add_secondary(path, surface, out);
+  const bool secondary = prepared_.needs[Need::mirrors] || prepared_.needs[Need::refraction];
+  glm::dvec3 from{0};   // where rays start that leave
+  if (secondary || scene_.trace.shadows) from = leaving_point(prepared_, path.ray, out.hit, surface, stats_.signs);
+  add_local(surface, path.ray, from, out);
+  if (secondary) add_secondary(path, surface, from, out);
   out.color = (out.color + out.mirrored) + out.refracted;
   recorder_.end(out.color);
   return out;
@@ -58,7 +61,8 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
 
 // color = c1 (ka Ia + sum b_i T_i), shadow = c1 sum (1 - b_i) T_i, and the unshadowed parts.
 template <class Real, class Recorder>
-void Whitted<Real, Recorder>::add_local(const Surface& surface, const Ray& ray, Traced<Real>& out) {
+void Whitted<Real, Recorder>::add_local(const Surface& surface, const Ray& ray, const glm::dvec3& from,
+                                        Traced<Real>& out) {
   const Vec3<Real>& c1 = tables_.materials[surface.material].local;
   const ShadingPoint<Real> point = shading_point(tables_, surface, ray);
   const Vec3<Real> ambient = ambient_term<Real>(point, tables_.ambient_light);
@@ -77,7 +81,7 @@ void Whitted<Real, Recorder>::add_local(const Surface& surface, const Ray& ray, 
       if (term.self_shadowed)
         ++stats_.self_shadowed;
       else
-        blocker = shadow_blocker(surface, scene_.lights[i]);
+        blocker = shadow_blocker(surface, from, scene_.lights[i]);
       b = !term.self_shadowed && !blocker.found();
     }
     if (b)
@@ -95,26 +99,23 @@ void Whitted<Real, Recorder>::add_local(const Surface& surface, const Ray& ray, 
 
 // b_i = 0 where this finds something.
 template <class Real, class Recorder>
-Hit Whitted<Real, Recorder>::shadow_blocker(const Surface& surface, const Light& light) {
+Hit Whitted<Real, Recorder>::shadow_blocker(const Surface& surface, const glm::dvec3& from, const Light& light) {
   ++stats_.rays.shadow;
-  glm::dvec3 from = surface.point;
-  if (!shadow_offset_) from += surface.clearance * surface.facing;
-  const Ray ray = make_ray(from, light.directional ? -light.direction : light.position - from);
+  const glm::dvec3 origin = shadow_offset_ ? surface.point : from;
+  const Ray ray = make_ray(origin, light.directional ? -light.direction : light.position - origin);
   const Hit start{shadow_offset_ ? *shadow_offset_ / glm::length(ray.direction) : kRayStart.t, kNone};
   return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start, precision_);
 }
 
 template <class Real, class Recorder>
-void Whitted<Real, Recorder>::add_secondary(const Path& path, const Surface& surface, Traced<Real>& out) {
+void Whitted<Real, Recorder>::add_secondary(const Path& path, const Surface& surface, const glm::dvec3& from,
+                                            Traced<Real>& out) {
   const Material& material = scene_.materials[surface.material];
   const glm::dvec3 c2 = scene_.trace.reflection ? material.reflect : glm::dvec3(0);
   const glm::dvec3 c3 = scene_.trace.refraction ? material.refract : glm::dvec3(0);
   if (largest(c2) == 0 && largest(c3) == 0) return;
 
   const glm::dvec3 d = glm::normalize(path.ray.direction);
-  // Both rays start on the near side. A refracted one meets its own surface again and passes it, since by then it
-  // is in the medium behind; and no other surface that touches this one is jumped over.
-  const glm::dvec3 from = surface.point + surface.clearance * surface.facing;
   Path mirrored = path;
   mirrored.kind = RayKind::mirrored;
   mirrored.ray = make_ray(from, reflect_direction(d, surface.normal, surface.facing));
@@ -139,6 +140,8 @@ void Whitted<Real, Recorder>::add_secondary(const Path& path, const Surface& sur
       out.mirrored = follow(std::move(mirrored), c2 + c3);
       return;
     }
+    // It starts before the surface too, meets it again and passes it, since by then it is in the medium behind; and no
+    // other surface that touches this one is jumped over.
     refracted.ray = make_ray(from, *t);
     refracted.start = kRayStart;
   }

@@ -45,9 +45,9 @@ class Whitted {
   Traced<Real> trace(const Path& path);
 
  private:
-  void add_local(const Surface& surface, const Ray& ray, Traced<Real>& out);
-  Hit shadow_blocker(const Surface& surface, const Light& light);
-  void add_secondary(const Path& path, const Surface& surface, Traced<Real>& out);
+  void add_local(const Surface& surface, const Ray& ray, const glm::dvec3& from, Traced<Real>& out);
+  Hit shadow_blocker(const Surface& surface, const glm::dvec3& from, const Light& light);
+  void add_secondary(const Path& path, const Surface& surface, const glm::dvec3& from, Traced<Real>& out);
   Rgb follow(Path path, const glm::dvec3& c);
 
   const Prepared& prepared_;

@@ -19,12 +19,7 @@ glm::dvec3 interpolated_normal(const Scene& scene, std::uint32_t primitive, cons
 
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts) {
   const Place place = locate(scene, ray, hit, counts);
-  Surface surface;
-  surface.point = place.point;
-  surface.facing = place.entering ? place.outward : -place.outward;
-  surface.entering = place.entering;
-  surface.clearance = place.clearance;
-  surface.together = place.together;
+  Surface surface{place};
   surface.object = scene.primitive_object[hit.primitive];
   surface.material = primitive_material(scene, hit.primitive);
 

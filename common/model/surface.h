@@ -6,18 +6,13 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "common/model/visibility.h"
+#include "common/model/place.h"
 #include "common/scene/scene.h"
 
 namespace sidelight {
 
-struct Surface {
-  glm::dvec3 point{0};
-  glm::dvec3 facing{0};        // Nv: the geometric normal, turned against the ray; unit
-  glm::dvec3 normal{0};        // N: the interpolated normal on the side of Nv; Nv where there is none; unit
-  bool entering = false;       // the ray comes from the outward side
-  double clearance = 0;        // see Place
-  double together = 0;
+struct Surface : Place {
+  glm::dvec3 normal{0};   // N: the interpolated normal on the side of Nv; Nv where there is none; unit
   std::uint32_t object = 0;
   std::uint32_t material = 0;
 };

@@ -52,6 +52,15 @@ inline constexpr Hit kRayStart{0.0, kNone};
 
 // ---- One triangle, seen from one origin ----
 
+struct Corners {
+  const glm::dvec3 &v0, &v1, &v2;
+};
+
+inline Corners corners(const Scene& scene, const Triangle& triangle) {
+  return {scene.positions[triangle.vertex[0]], scene.positions[triangle.vertex[1]],
+          scene.positions[triangle.vertex[2]]};
+}
+
 struct TriangleView {
   std::array<glm::dvec3, 3> a;       // vertices relative to the origin
   std::array<glm::dvec3, 3> edge;    // edge[k] = a[k+1] x a[k+2], in double
@@ -68,6 +77,10 @@ int view_side(const TriangleView& view, SignCounts& counts);
 // triangle iff this equals view_side() and that is not 0.
 int edge_agreement(const TriangleView& view, const glm::dvec3& direction, SignCounts& counts);
 
+// E_0, E_1, E_2 of a hit with the sign of the side and a relative error of their sum below 2^-20: in double, or exact and
+// rounded once where the triangle is seen nearly edge-on.
+std::array<double, 3> edge_values(const TriangleView& view, const glm::dvec3& direction);
+
 // What depth needs of a triangle, once per origin.
 struct DepthPlane {
   glm::dvec3 n;        // (v1 - v0) x (v2 - v0)
@@ -82,6 +95,15 @@ DepthPlane depth_plane(const TriangleView& view, const glm::dvec3& v0, const glm
 // error above 2^-20 (nearly edge-on), the exact quotient rounded once. Positive. Within 2^-18 of the exact quotient.
 double triangle_depth(const TriangleView& view, const DepthPlane& plane, const glm::dvec3& direction);
 
+// ---- One sphere ----
+
+// Both roots of |o + t d - c| = r in ascending order; NaN where the line misses.
+struct Roots {
+  double low = std::numeric_limits<double>::quiet_NaN(), high = low;
+};
+
+Roots sphere_roots(const Sphere& sphere, const Ray& ray);
+
 // ---- Any primitive ----
 
 // The nearest hit of one primitive that comes after `after`; not found() if there is none. Spheres: tangent is a hit,
@@ -92,25 +114,12 @@ Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const
 // The nearest hit of all primitives, by looking at every one of them.
 Hit nearest_of_all(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts);
 
+// On which side of the surface a point lies, as intersect() tells it of a ray's origin: 1 on the outward one, -1 on the
+// other, 0 where it cannot be told from the surface. Of a triangle it is that of its plane, and exact.
+int side_of(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point, SignCounts& counts);
+
 // Whether `hit`, found along `ray` from P with direction light - P, lies strictly between P and the light. Decided by
 // t where that is clear and, next to the light, by the sides on which the two ends lie (exactly, for a triangle).
 bool before_light(const Scene& scene, const Hit& hit, const Ray& ray, const glm::dvec3& light, SignCounts& counts);
-
-// ---- Where a ray met a surface ----
-
-struct Place {
-  glm::dvec3 point{0};
-  glm::dvec3 outward{0};           // Ng: unit geometric normal, outward
-  bool entering = false;           // the ray comes from the outward side (decided exactly)
-  std::array<double, 3> barycentric{};   // triangles: weights of the three vertices: >= 0, sum 1 to rounding
-  double clearance = 0;            // rays that leave start at point +- clearance * outward: beyond all rounding
-  double together = 0;             // surfaces of depth <= together count as crossed with this one
-};
-
-Place locate(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts);
-
-// Whether a solid object (Object::solid) contains the point: by distance, side, or, for a mesh, winding number
-// (A. van Oosterom and J. Strackee, "The Solid Angle of a Plane Triangle", 1983). O(triangles).
-bool contains(const Scene& scene, const Object& solid, const glm::dvec3& point);
 
 }  // namespace sidelight

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/model/place.h"
+
 namespace sidelight {
 namespace {
 

@@ -17,7 +17,7 @@
 #include <set>
 #include <utility>
 
-#include "common/model/visibility.h"
+#include "common/model/place.h"
 #include "common/scene/camera.h"
 
 namespace sidelight {

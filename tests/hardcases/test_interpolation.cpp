@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the z-buffer works out at a sample: barycentrics across extreme ratios of depth (RAS-10), in any order of a
 // triangle's vertices (RAS-11), in pictures of odd shapes (RAS-12).
-#include "common/model/visibility.h"
+#include "common/model/place.h"
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/exact_picture.h"

@@ -24,8 +24,7 @@ struct Departure {
 Departure departure(const Scene& scene, const Ray& ray, const Hit& hit) {
   SignCounts counts;
   const Place place = locate(scene, ray, hit, counts);
-  const glm::dvec3 facing = place.entering ? place.outward : -place.outward;
-  return {place.point + place.clearance * facing, facing};
+  return {start_of_leaving(scene, ray, hit, place, counts), place.facing};
 }
 
 // Rays that leave where `ray` meets the scene and meet it again. At an edge of a body's outline front and back have one

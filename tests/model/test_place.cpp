@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a ray met a surface: the point lies on it, rays that leave from its clearance never meet it again
-// (SEC-1), and the clearance is small. And which points a solid contains.
+// Where a ray met a surface: the point lies on it, rays that leave never meet it again (SEC-1) nor start behind another
+// one, and they start near. And which points a solid contains.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/model/visibility.h"
+#include "common/model/place.h"
 #include "common/scene/shapes.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/rays.h"
@@ -49,8 +49,8 @@ Departure depart(const Scene& scene, const glm::dvec3& center, double size, doub
     if (!hit.found()) continue;
     ++result.hits;
     const Place place = locate(scene, ray, hit, counts);
-    const glm::dvec3 facing = place.entering ? place.outward : -place.outward;
-    const glm::dvec3 origin = place.point + place.clearance * facing;
+    const glm::dvec3 facing = place.facing;
+    const glm::dvec3 origin = start_of_leaving(scene, ray, hit, place, counts);
     for (int i = 0; i < kOutward; ++i)
       result.again +=
           nearest_of_all(scene, make_ray(origin, outward(facing, random)), kRayStart, counts).found();
@@ -143,6 +143,70 @@ TEST_CASE("rays that leave a plane never meet it again, wherever it is") {
           }));
     }
   report(all, "a plane");
+}
+
+// Inside a box: the start lies inside, strictly, and near the point: in clearances, one up, and aside from each of two
+// walls two and the rounding of the point, one.
+TEST_CASE("rays that leave an edge or a corner of a room start inside, a few clearances from it") {
+  const PolygonMesh box = make_box({2, 2, 2});
+  const Scene scene = scene_of(box);
+  Random random(44);
+  SignCounts counts;
+  std::uint64_t outside = 0, moved = 0, starts = 0;
+  Worst distance;
+  for (std::uint64_t left = 1 + tier_count("rays_per_case") / 20; left > 0; --left, ++starts) {
+    // Towards an edge, or a corner where the last coordinate is 1 too.
+    glm::dvec3 target{random.below(2) ? 1 : -1, 1, random.below(2) ? 1 : random.uniform(-1, 1)};
+    for (std::uint32_t turn = random.below(3); turn > 0; --turn) target = {target.y, target.z, target.x};
+    const glm::dvec3 eye = random.in_box(1);
+    const Ray ray = make_ray(eye, target - eye);
+    const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
+    const Place place = locate(scene, ray, hit, counts);
+    const glm::dvec3 from = start_of_leaving(scene, ray, hit, place, counts);
+    outside += !(largest(from) < 1);
+    moved += from != place.point + place.clearance * place.facing;
+    distance.add(glm::length(from - place.point) / place.clearance);
+  }
+  CHECK(starts > 0);
+  CHECK(moved > starts / 4);
+  CHECK(outside == 0);
+  CHECK(distance <= std::sqrt(1.0 + 3 * 3 + 3 * 3));
+}
+
+// From outside, the same edges need nothing: no ray that leaves one face can meet the other.
+TEST_CASE("rays that leave an edge of a convex body start one clearance above it") {
+  const Scene scene = scene_of(octahedron({0, 0, 0}, 1));
+  Random random(45);
+  SignCounts counts;
+  std::uint64_t moved = 0, starts = 0;
+  for (std::uint64_t left = 1 + tier_count("rays_per_case") / 20; left > 0; --left) {
+    const double at = random.below(2) ? 0 : random.uniform();
+    const glm::dvec3 eye = 3.0 * random.direction();
+    const Ray ray = make_ray(eye, glm::dvec3(1 - at, at, 0) - eye);
+    const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
+    if (!hit.found()) continue;
+    const Place place = locate(scene, ray, hit, counts);
+    if (!place.entering) continue;   // of two triangles at one depth the lower number is seen: here a back
+    ++starts;
+    moved += start_of_leaving(scene, ray, hit, place, counts) != place.point + place.clearance * place.facing;
+  }
+  CHECK(starts > 0);
+  CHECK(moved == 0);
+}
+
+// A ray that has passed a sheet lies behind it, though it began before it.
+TEST_CASE("a start lies on the side from which the ray arrives, also of a surface that it has passed") {
+  Scene scene = scene_of(Plane{{0, 0, 0}, {1, 0, 0}, 0});
+  add_plane(scene, {{0, 0, 0}, {0, 1, 0}, 0}, {});
+  SignCounts counts;
+  // Through x = 0 at a height of 2^-52, and on to y = 0, next to where they cross.
+  const Ray ray = make_ray({-0.5, 0.5 + 0x1p-52, 0}, {1, -1, 0});
+  const Hit passed = intersect(scene, 0, ray, kRayStart, counts), hit = intersect(scene, 1, ray, passed, counts);
+  REQUIRE(before(passed, hit));
+  const Place place = locate(scene, ray, hit, counts);
+  const glm::dvec3 from = start_of_leaving(scene, ray, hit, place, counts);
+  CHECK(from.x > 0);
+  CHECK(from.y > 0);
 }
 
 // From locate_triangle: E / sum is off by 3 u (quotient, sum of three), so the sum of all by 4 u and the
