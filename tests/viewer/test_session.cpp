@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+// The window's state machine and its worker, driven by keys and mouse without a display; the pictures it ends with are
+// the headless ones.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <thread>
+
+#include "common/scene/toml.h"
+#include "tests/viewer/program.h"
+#include "viewer/window/camera_moves.h"
+#include "viewer/window/session.h"
+
+using namespace sidelight;
+using namespace sidelight::testing;
+
+namespace {
+
+constexpr Rect kPanel{24, 90, 24 + 320, 90 + 240};
+
+OpenedScene open_small(const std::string& file, const Settings& set) {
+  OpenedScene opened;
+  opened.scene = load_scene_with(file, set);
+  opened.scene.width = 48;
+  opened.scene.height = 36;
+  opened.options.threads = 2;
+  return opened;
+}
+
+const std::string kLesson =
+    "[[step]]\n"
+    "text = 'Which shadow?'\n"
+    "mode = 'causes'\n"
+    "eye = [0, 2, 7]\n"
+    "set = { 'trace.depth' = 2 }\n"
+    "[[step]]\n"
+    "text = 'And now?'\n";
+
+bool same_bits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+// The pictures that a headless run makes of what the session shows.
+void check_headless(const Session& session) {
+  session.worker().wait();
+  const Pictures shown = session.worker().latest();
+  REQUIRE(shown.error == "");
+  REQUIRE(shown.finished);
+  PictureTask task = picture_task(session.state());
+  const auto rasterizer = raster::prepare(*task.scene);
+  const auto tracer = raytrace::prepare(*task.scene);
+  CHECK(
+      same_bits(shown.rastered->color, raster::render(*rasterizer, task.made_camera(), task.options).color));
+  CHECK(same_bits(shown.traced->color, raytrace::render(*tracer, task.made_camera(), task.options).color));
+  CHECK(same_bits(shown.traced->color, render_pictures(task).traced->color));
+}
+
+struct Open {
+  TemporaryFolder folder;
+  std::string file = folder / "scene.toml";
+  explicit Open(const std::string& text = kGoodScene + kLesson) { write_bytes(file, text); }
+};
+
+// The file with a time that differs from the one before, however coarse the file system's clock.
+void save_later(const std::string& file, const std::string& text) {
+  const auto before = std::filesystem::last_write_time(file);
+  write_bytes(file, text);
+  std::filesystem::last_write_time(file, before + std::chrono::seconds(2));
+}
+
+}  // namespace
+
+TEST_CASE("session: pictures are the headless ones, after whatever was pressed on the way") {
+  const Open open;
+  Session session(open.file, open_small);
+  check_headless(session);
+  CHECK(session.worker().latest().comparison->agrees());
+
+  for (const char* key : {"Left", "Up", "Shift+Right", ".", "D", "f", "a", "Right"}) {
+    CAPTURE(key);
+    CHECK(session.press(key, kPanel));
+  }
+  check_headless(session);
+  CHECK(session.worker().latest().task.scene->trace.depth == 5);
+  CHECK_FALSE(session.worker().latest().task.scene->trace.shadows);
+  CHECK(session.worker().latest().traced->n == 2);
+
+  Faults faults;
+  faults.tessellate = 8;
+  session.set_faults(faults);
+  check_headless(session);
+  CHECK(session.worker().latest().task.scene->spheres.empty());
+  CHECK(window_title(session.state()).rfind("FAULTS ON PURPOSE", 0) == 0);
+
+  session.press("z", kPanel);
+  CHECK(session.state().n == 1);
+  CHECK_FALSE(session.state().faults.any());
+  check_headless(session);
+}
+
+TEST_CASE("session: a storm of input ends in the last one's pictures, and leaving amid it is clean") {
+  const Open open;
+  {
+    Session session(open.file, open_small);
+    for (int i = 0; i < 40; ++i) {
+      session.drag_orbit({3, i % 7 - 3.0}, kPanel);
+      if (i % 9 == 0) session.press("d", kPanel);
+      std::this_thread::sleep_for(std::chrono::milliseconds(i % 4));
+      const Pictures seen = session.worker().latest();  // as the window does, all the while
+      if (seen.rastered) CHECK(seen.rastered->width() == 48);
+    }
+    check_headless(session);
+    session.press("Left", kPanel);
+  }
+}
+
+TEST_CASE("worker: blocks become finer, and a new task cuts them short") {
+  const Open open;
+  OpenedScene opened = open_small(open.file, {});
+  opened.scene.width = 640;
+  opened.scene.height = 480;
+  PictureTask task;
+  task.scene = std::make_shared<const Scene>(opened.scene);
+  task.camera = task.scene->camera;
+  task.n = 2;
+  std::mutex mutex;
+  std::vector<int> blocks;
+  Progressive* self = nullptr;
+  Progressive worker([&] {
+    const std::lock_guard lock(mutex);
+    if (self) blocks.push_back(self->latest().block);
+  });
+  {
+    const std::lock_guard lock(mutex);
+    self = &worker;
+  }
+  worker.submit(task);
+  worker.wait();
+  {
+    const std::lock_guard lock(mutex);
+    CHECK(blocks == std::vector<int>{0, 16, 8, 4, 2, 1, 1});
+    CHECK(worker.latest().traced->width() == 640);
+    blocks.clear();
+  }
+  // 64 samples a pixel take a while; the next task does not wait for them.
+  task.n = 8;
+  worker.submit(task);
+  while (worker.latest().task.n != 8 || worker.latest().block == 0) std::this_thread::yield();
+  const Pictures complete = worker.last_finished();
+  CHECK(complete.task.n == 2);  // what modes that compare go on showing
+  task.n = 1;
+  worker.submit(task);
+  worker.wait();
+  CHECK(worker.last_finished().task.n == 1);
+}
+
+TEST_CASE("session: modes by their keys, and layers in a ring") {
+  const Open open;
+  Session session(open.file, open_small);
+  const std::vector<std::pair<const char*, Mode>> keys{
+      {"1", Mode::side_by_side}, {"2", Mode::swipe},  {"3", Mode::flip},   {"4", Mode::difference},
+      {"5", Mode::causes},       {"6", Mode::ledger}, {"9", Mode::raster}, {"9", Mode::raytrace},
+      {"7", Mode::ambient},      {"8", Mode::cost}};
+  for (const auto& [key, mode] : keys) {
+    session.press(key, kPanel);
+    CHECK(mode_name(session.state().mode) == mode_name(mode));
+  }
+  session.worker().wait();
+  CHECK_FALSE(session.worker().latest().traced->cost.empty());  // asked for with its mode
+  session.press("7", kPanel);
+  CHECK(session.state().mode == Mode::ambient);
+
+  session.press("6", kPanel);
+  for (const int term : {1, 2, 3, 0}) {
+    session.press("Space", kPanel);
+    CHECK(session.state().ledger_term == term);
+  }
+  CHECK_FALSE(session.press("%", kPanel));
+  for (int i = 0; i < 30; ++i) session.press(">", kPanel);
+  CHECK(session.state().swipe == 1);
+  for (int i = 0; i < kModes; ++i) {
+    const auto mode = static_cast<Mode>(i);
+    CHECK(find_mode(mode_name(mode)) == mode);
+  }
+}
+
+TEST_CASE("session: lessons ask first, then show") {
+  const Open open;
+  Session session(open.file, open_small);
+  session.press("PageDown", kPanel);
+  CHECK(session.state().step == 0);
+  CHECK_FALSE(session.state().revealed);
+  CHECK(session.state().mode == Mode::side_by_side);
+  session.press("n", kPanel);
+  CHECK(session.state().revealed);
+  CHECK(session.state().mode == Mode::causes);
+  CHECK(session.state().camera.eye == glm::dvec3(0, 2, 7));
+  CHECK(session.state().scene->trace.depth == 2);
+  check_headless(session);
+  session.press("n", kPanel);
+  session.press("n", kPanel);
+  CHECK(session.state().step == 1);
+  CHECK(session.state().scene->trace.depth == 6);  // each step starts from the file
+  CHECK(session.state().mode == Mode::causes);     // which it does not change
+  session.press("n", kPanel);
+  CHECK(session.state().step == 1);
+  session.press("p", kPanel);
+  CHECK(session.state().step == 0);
+  CHECK(session.state().revealed);
+  session.press("p", kPanel);
+  CHECK(session.state().step == -1);
+}
+
+TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and the picture stays") {
+  const Open open;
+  Session session(open.file, open_small);
+  CHECK_FALSE(session.watch());
+  const auto before = session.state().scene;
+  save_later(open.file, "[camera]\neye = 3\nlook_at = [0, 0, 0]\nview_height = 1\n");
+  CHECK(session.watch());
+  CHECK(session.state().scene == before);
+  CHECK(session.state().notice.error);
+  CHECK(session.state().notice.text.find("scene.toml:2:7") != std::string::npos);
+  CHECK_FALSE(session.watch());  // told once
+  check_headless(session);
+
+  session.press("Left", kPanel);
+  const glm::dvec3 eye = session.state().camera.eye;
+  std::string text = kGoodScene;
+  text.replace(text.find("radius = 1"), 10, "radius = 2");
+  save_later(open.file, text);
+  CHECK(session.watch());
+  CHECK(session.state().notice.text == "");
+  CHECK(session.state().scene->spheres[0].radius == 2);
+  CHECK(session.state().camera.eye == eye);  // the user's
+  check_headless(session);
+
+  std::filesystem::remove(open.file);
+  CHECK_FALSE(session.watch());
+}
+
+TEST_CASE("session: neighbours in the folder, and their ends") {
+  const Open open;
+  write_bytes(open.folder / "second.toml", kGoodScene);
+  write_bytes(open.folder / "tenth.toml", "broken");
+  Session session(open.file, open_small);
+  session.press("[", kPanel);
+  CHECK(session.state().notice.text == "this is the first scene of its folder");
+  session.press("]", kPanel);
+  CHECK(std::filesystem::path(session.state().file).filename() == "second.toml");
+  session.press("]", kPanel);
+  CHECK(std::filesystem::path(session.state().file).filename() == "second.toml");
+  CHECK(session.state().notice.error);
+  session.press("n", kPanel);
+  CHECK(session.state().notice.text == "this scene has no steps");
+}
+
+TEST_CASE("session: slow motion draws the first objects only") {
+  const Open open;
+  Session session(open.file, open_small);
+  session.press("o", kPanel);
+  check_headless(session);
+  for (int i = 0; i < 2; ++i) session.press("j", kPanel);
+  CHECK(session.state().objects == 1);
+  CHECK(session.state().rows == 12);
+  session.worker().wait();
+  const Pictures pictures = session.worker().latest();
+  REQUIRE(pictures.finished);
+  CHECK_FALSE(pictures.comparison.has_value());
+  for (const std::uint32_t id : pictures.rastered->object_id) CHECK(id <= 1);
+  session.set_slow(-5, 9000);
+  CHECK(session.state().objects == 0);
+  CHECK(session.state().rows == 36);
+  session.worker().wait();
+  for (const std::uint32_t id : session.worker().latest().rastered->object_id) CHECK(id == 0);
+  session.press("o", kPanel);
+  check_headless(session);
+}
+
+TEST_CASE("session: Escape closes what is open, the window last") {
+  const Open open;
+  Session session(open.file, open_small);
+  session.press("h", kPanel);
+  session.inspect({3, 4});
+  session.inspect({48, 4});  // outside
+  CHECK(session.state().inspected == glm::ivec2(3, 4));
+  session.press("Esc", kPanel);
+  CHECK_FALSE(session.state().help);
+  session.press("Esc", kPanel);
+  CHECK_FALSE(session.state().inspected.has_value());
+  CHECK_FALSE(session.closed());
+  session.press("Esc", kPanel);
+  CHECK(session.closed());
+}
+
+TEST_CASE("camera moves: distances stay, poles are not passed, points project onto their own rays") {
+  CameraSettings camera;
+  camera.eye = {1, 2, 7};
+  camera.look_at = {0, 0.5, -1};
+  const double distance = glm::distance(camera.eye, camera.look_at);
+  CameraSettings moved = camera;
+  for (int i = 0; i < 500; ++i) moved = orbit(moved, 0.05, 0.03);
+  CHECK(glm::distance(moved.eye, moved.look_at) == doctest::Approx(distance));
+  CHECK(moved.eye.y - moved.look_at.y < distance);
+  CHECK(moved.eye.y - moved.look_at.y > 0.99 * distance);
+  const CameraSettings back = orbit(orbit(camera, 0.3, 0), -0.3, 0);
+  CHECK(glm::distance(back.eye, camera.eye) < 1e-12 * distance);
+  CHECK(orbit(camera, 0.1, 0).eye.x > camera.eye.x);  // to the right
+  CHECK(orbit(camera, 0, 0.1).eye.y > camera.eye.y);
+  CHECK(slide(camera, {0, 0.5}).look_at.y > camera.look_at.y);
+
+  CameraSettings near = camera;
+  for (int i = 0; i < 2000; ++i) near = dolly(near, 0.9);
+  CHECK(near.eye != near.look_at);
+  for (int i = 0; i < 2000; ++i) near = dolly(near, 1.5);
+  CHECK(glm::length(near.eye) < 1e15);
+
+  const Camera made = make_camera(camera, 64, 48, 1);
+  for (const glm::ivec2& pixel : {glm::ivec2(0, 0), {63, 47}, {20, 31}}) {
+    const glm::dvec2 at = project(made, made.eye + 0.01 * made.direction(pixel.x, pixel.y));
+    CHECK(at.x == doctest::Approx(pixel.x + 0.5));
+    CHECK(at.y == doctest::Approx(pixel.y + 0.5));
+  }
+}

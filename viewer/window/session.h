@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The window without a window: keys and mouse come in, the state changes, the worker is told to draw. All of it runs
+// without a display, on one thread but for the worker's, so tests drive it as a user would.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "viewer/window/keys.h"
+#include "viewer/window/progressive.h"
+#include "viewer/window/state.h"
+
+namespace sidelight {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+// Loads a scene file with a lesson's settings and the command line's flags. Throws as the program's verbs do.
+using SceneOpener = std::function<OpenedScene(const std::string& file, const Settings& set)>;
+
+// A state that shows the scene as it opens. Throws what `open` throws.
+WindowState open_state(const std::string& file, const SceneOpener& open);
+
+// Puts step `number` (from 0) of the scene's lesson on the screen. Throws what `open` throws.
+void reveal_step(WindowState& state, int number, const SceneOpener& open);
+
+class Session {
+ public:
+  // `notify`: as of Progressive. Throws what `open` throws.
+  Session(const std::string& file, SceneOpener open, std::function<void()> notify = {});
+
+  const WindowState& state() const { return state_; }
+  const Progressive& worker() const { return worker_; }
+  bool closed() const { return closed_; }
+
+  // A key by its name (keys.h). `panel` is where the (left) picture lies. False if the key does nothing.
+  bool press(std::string_view key, const Rect& panel);
+  void act(Action action, const Rect& panel);
+
+  // The mouse, in device pixels: what a drag by `by` does to the camera or the pictures.
+  void drag_orbit(glm::dvec2 by, const Rect& panel);
+  void drag_slide(glm::dvec2 by, const Rect& panel);
+  void drag_pictures(glm::dvec2 by, const Rect& panel);
+  void wheel(int steps, glm::dvec2 cursor, const Rect& panel);
+  void dolly_by(int steps);
+  void point_at(std::optional<glm::dvec2> picture_point) { state_.cursor = picture_point; }
+  void inspect(glm::ivec2 pixel);
+  void fit_panel(const Rect& panel);
+  void set_swipe(double part);
+  void set_mode(Mode mode);
+
+  // Changes of the scene by the controls.
+  void edit(const std::function<void(Scene&)>& change);
+  void set_faults(const Faults& faults);
+  void set_samples_per_edge(int n);
+  void set_slow(int objects, int rows);
+
+  // Looks whether the file was saved since; loads it again if so. A mistake in it becomes the notice, and what was
+  // shown stays. Returns whether something changed.
+  bool watch();
+
+  // Messages from elsewhere, such as where a file was saved.
+  void tell(Notice notice) { state_.notice = std::move(notice); }
+
+ private:
+  void redraw();
+  void load(const std::string& file);
+  void go_to_step(int step, bool revealed);
+  void next_step();
+  void previous_step();
+  void open_neighbour(int by);
+  void reset();
+  void escape();
+  void choose_layer(int by);
+  void swap_or_advance();
+  void step_slow(int by);
+  void zoom(int steps, const Rect& panel);
+  void move_camera(const CameraSettings& camera);
+  bool try_to(const std::function<void()>& change);
+  void note_file_time();
+
+  SceneOpener open_;
+  WindowState state_;
+  bool closed_ = false;
+  std::filesystem::file_time_type file_time_{};
+  std::uintmax_t file_size_ = 0;
+  Progressive worker_;
+};
+
+}  // namespace sidelight

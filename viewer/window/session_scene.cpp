@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// The part of the session that opens scenes: lessons, neighbours, changes, the file that is watched.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/scene/tessellate.h"
+#include "viewer/window/session.h"
+
+namespace sidelight {
+namespace {
+
+void use_scene(WindowState& state, std::shared_ptr<const Scene> scene) {
+  state.drawn = state.faults.tessellate
+                    ? std::make_shared<const Scene>(tessellated(*scene, *state.faults.tessellate))
+                    : scene;
+  state.scene = std::move(scene);
+}
+
+// What was opened, untouched.
+void start_over(WindowState& state) {
+  state.faults = state.opened.faults;
+  state.n = state.opened.n;
+  use_scene(state, std::make_shared<const Scene>(state.opened.scene));
+  state.camera = state.scene->camera;
+  state.objects = static_cast<int>(state.drawn->objects.size());
+  state.rows = state.scene->height;
+}
+
+bool inside(const Scene& scene, glm::ivec2 pixel) { return pixel.x < scene.width && pixel.y < scene.height; }
+
+// A key path and its value, as the scene file writes it.
+std::string point_text(const glm::dvec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); }
+
+}  // namespace
+
+WindowState open_state(const std::string& file, const SceneOpener& open) {
+  WindowState state;
+  state.file = file;
+  state.opened = open(file, {});
+  start_over(state);
+  return state;
+}
+
+void reveal_step(WindowState& state, int number, const SceneOpener& open) {
+  const Step step = state.opened.scene.steps.at(static_cast<std::size_t>(number));
+  Settings settings = step.set;
+  if (step.eye) settings.emplace_back("camera.eye", point_text(*step.eye));
+  const OpenedScene opened = open(state.file, settings);
+  use_scene(state, std::make_shared<const Scene>(opened.scene));
+  state.camera = state.scene->camera;
+  state.step = number;
+  state.revealed = true;
+  state.lesson = true;
+  if (const auto mode = find_mode(step.mode)) state.mode = *mode;
+  state.ledger_term = 0;
+  if (state.inspected && !inside(*state.scene, *state.inspected)) state.inspected.reset();
+}
+
+Session::Session(const std::string& file, SceneOpener open, std::function<void()> notify)
+    : open_(std::move(open)), state_(open_state(file, open_)), worker_(std::move(notify)) {
+  note_file_time();
+  redraw();
+}
+
+// A user's mistake becomes the notice, and everything stays as it was.
+bool Session::try_to(const std::function<void()>& change) {
+  const WindowState before = state_;
+  try {
+    change();
+    return true;
+  } catch (const std::runtime_error& mistake) {
+    state_ = before;
+    state_.notice = {mistake.what(), true};
+    return false;
+  }
+}
+
+void Session::edit(const std::function<void(Scene&)>& change) {
+  const bool done = try_to([&] {
+    auto scene = std::make_shared<Scene>(*state_.scene);
+    change(*scene);
+    use_scene(state_, std::move(scene));
+  });
+  if (done) redraw();
+}
+
+void Session::set_faults(const Faults& faults) {
+  if (faults == state_.faults) return;
+  const bool done = try_to([&] {
+    state_.faults = faults;
+    use_scene(state_, state_.scene);
+  });
+  if (done) redraw();
+}
+
+void Session::reset() {
+  start_over(state_);
+  state_.step = -1;
+  state_.revealed = false;
+  state_.notice = {};
+  redraw();
+}
+
+// ---- Lessons ----
+
+// Predict, then reveal: the first press asks the step's question, the second shows what it is about.
+void Session::next_step() {
+  const int steps = static_cast<int>(state_.opened.scene.steps.size());
+  if (steps == 0) return tell({"this scene has no steps", false});
+  if (state_.step >= 0 && !state_.revealed) return go_to_step(state_.step, true);
+  if (state_.step + 1 < steps) go_to_step(state_.step + 1, false);
+}
+
+void Session::previous_step() {
+  if (state_.step >= 0) go_to_step(state_.step - 1, true);
+}
+
+void Session::go_to_step(int step, bool revealed) {
+  state_.lesson = true;
+  if (step < 0) {
+    reset();
+  } else if (!revealed) {
+    state_.step = step;
+    state_.revealed = false;
+  } else if (try_to([&] { reveal_step(state_, step, open_); })) {
+    redraw();
+  }
+}
+
+// ---- Files ----
+
+void Session::note_file_time() {
+  std::error_code gone;  // then the next look finds out
+  file_time_ = std::filesystem::last_write_time(state_.file, gone);
+  file_size_ = std::filesystem::file_size(state_.file, gone);
+}
+
+bool Session::watch() {
+  std::error_code gone;
+  const auto time = std::filesystem::last_write_time(state_.file, gone);
+  const std::uintmax_t size = gone ? 0 : std::filesystem::file_size(state_.file, gone);
+  if (gone || (time == file_time_ && size == file_size_))
+    return false;  // gone: an editor is about to replace it
+  note_file_time();
+  // The view, the mode and the step stay; the camera too, if the user moved it and the file did not.
+  const bool loaded = try_to([&] {
+    const WindowState before = state_;
+    state_.opened = open_(state_.file, {});
+    start_over(state_);
+    const int steps = static_cast<int>(state_.opened.scene.steps.size());
+    if (state_.revealed && state_.step < steps) reveal_step(state_, state_.step, open_);
+    if (state_.step >= steps) state_.step = -1, state_.revealed = false;
+    state_.mode = before.mode;
+    state_.ledger_term = before.ledger_term;
+    if (is_edited(before)) state_.camera = before.camera;
+    if (state_.inspected && !inside(*state_.scene, *state_.inspected)) state_.inspected.reset();
+    state_.notice = {};
+  });
+  if (loaded) redraw();
+  return true;
+}
+
+void Session::load(const std::string& file) {
+  const bool done = try_to([&] {
+    WindowState fresh = open_state(file, open_);
+    fresh.mode = state_.mode;
+    fresh.view.flipped = state_.view.flipped;
+    fresh.swipe = state_.swipe;
+    fresh.lesson = state_.lesson;
+    fresh.controls = state_.controls;
+    fresh.text_scale = state_.text_scale;
+    state_ = std::move(fresh);
+  });
+  if (!done) return;
+  note_file_time();
+  redraw();
+}
+
+// The scene files of the same folder, in the order of their names.
+void Session::open_neighbour(int by) {
+  const std::filesystem::path here(state_.file);
+  std::vector<std::string> names;
+  std::error_code unreadable;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(here.has_parent_path() ? here.parent_path() : ".", unreadable))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  const auto at = std::find(names.begin(), names.end(), here.filename().string());
+  const auto index = at - names.begin() + by;
+  if (at == names.end() || index < 0 || index >= static_cast<std::ptrdiff_t>(names.size()))
+    return tell(
+        {by > 0 ? "this is the last scene of its folder" : "this is the first scene of its folder", false});
+  load((here.parent_path() / names[static_cast<std::size_t>(index)]).string());
+}
+
+}  // namespace sidelight

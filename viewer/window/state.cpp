@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/window/state.h"
+
+#include <fmt/format.h>
+
+namespace sidelight {
+
+PictureTask picture_task(const WindowState& state) {
+  PictureTask task;
+  task.scene = state.drawn;
+  task.camera = state.camera;
+  task.n = state.n;
+  task.options = state.opened.options;
+  task.options.faults = state.faults;
+  task.cost = state.mode == Mode::cost;
+  if (state.slow) task.objects = static_cast<std::size_t>(state.objects);
+  return task;
+}
+
+int sample_count(const WindowState& state) { return state.n * state.n; }
+
+std::string window_title(const WindowState& state) {
+  const std::string& title = state.scene->title.empty() ? state.file : state.scene->title;
+  return state.faults.any() ? fmt::format("FAULTS ON PURPOSE ({}): {}", state.faults.text(), title) : title;
+}
+
+bool is_edited(const WindowState& state) {
+  const CameraSettings &now = state.camera, &then = state.scene->camera;
+  return now.eye != then.eye || now.look_at != then.look_at;
+}
+
+}  // namespace sidelight
