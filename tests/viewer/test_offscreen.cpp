@@ -14,7 +14,7 @@
 #include "common/error.h"
 #include "viewer/window/offscreen.h"
 #include "viewer/window/view.h"
-#include "viewer/window/window.h"
+#include "viewer/window/window_panels.h"
 
 using namespace sidelight;
 
@@ -141,10 +141,47 @@ TEST_CASE("a layout made for a panel size has panels of that size") {
 TEST_CASE("pictures that differ in size are refused") {
   CHECK_THROWS_AS(side_by_side(noise(4, 4, 1), noise(4, 5, 2), {}), std::invalid_argument);
   CHECK_THROWS_AS(side_by_side({}, {}, {}), std::invalid_argument);
-  CHECK_THROWS_AS(run_window({noise(4, 4, 1), noise(5, 4, 2), {}}), std::invalid_argument);
 }
 
 #ifdef SIDELIGHT_HAVE_OSMESA
+
+namespace {
+
+// A frame that is shown as these bytes.
+std::shared_ptr<const Frame> frame_of(const Image8& image) {
+  auto frame = std::make_shared<Frame>(make_frame(image.width, image.height, 1, {}));
+  for (std::size_t i = 0; i < frame->color.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      frame->color[i][c] = decode_srgb8(image.rgb[3 * i + static_cast<std::size_t>(c)]);
+  return frame;
+}
+
+// A window's state that shows pictures of this size, and the window with the two in it.
+WindowState state_of(glm::ivec2 size) {
+  WindowState state;
+  Scene scene;
+  scene.width = size.x;
+  scene.height = size.y;
+  state.scene = state.drawn = std::make_shared<const Scene>(scene);
+  state.opened.times = false;
+  return state;
+}
+Image8 window_with(const Image8& left, const Image8& right, int width, int height) {
+  const WindowState state = state_of({left.width, left.height});
+  Pictures pictures;
+  pictures.task = picture_task(state);
+  pictures.rastered = frame_of(left);
+  pictures.traced = frame_of(right);
+  pictures.block = 1;
+  pictures.finished = true;
+  return screenshot(state, pictures, width, height);
+}
+Rect window_panel(glm::ivec2 picture, glm::ivec2 size, bool right) {
+  const Layout layout = window_layout(state_of(picture), size, 1).panels;
+  return right ? layout.right : layout.left;
+}
+
+}  // namespace
 
 TEST_CASE("the pictures' bytes come through unchanged") {
   for (const glm::ivec2& size : {glm::ivec2(1, 1), {3, 5}, {37, 21}, {641, 479}, {1023, 64}}) {
@@ -160,8 +197,8 @@ TEST_CASE("the pictures' bytes come through unchanged") {
 
 TEST_CASE("at a whole zoom every byte is a copy") {
   const Image8 left = noise(64, 48, 1), right = noise(64, 48, 2);
-  const Image8 shot = screenshot(left, right, {}, 500, 400);
-  const Rect panel = make_layout({500, 400}, layout_options({}, true)).right;
+  const Image8 shot = window_with(left, right, 500, 400);
+  const Rect panel = window_panel({64, 48}, {500, 400}, true);
   const View view = fit({}, {64, 48}, panel);
   REQUIRE(view.zoom == 3);
   const glm::ivec2 corner(picture_origin(view, panel));
@@ -177,8 +214,8 @@ TEST_CASE("at a whole zoom every byte is a copy") {
 
 TEST_CASE("a picture shown smaller keeps its mean") {
   const Image8 grey = noise(640, 480, 7);
-  const Image8 shot = screenshot(grey, grey, {}, 500, 400);
-  const Rect panel = make_layout({500, 400}, layout_options({}, true)).left;
+  const Image8 shot = window_with(grey, grey, 500, 400);
+  const Rect panel = window_panel({640, 480}, {500, 400}, false);
   const glm::ivec2 middle((panel.x0 + panel.x1) / 2, (panel.y0 + panel.y1) / 2);
   const Image8 part = cropped(shot, {middle.x - 40, middle.y - 40, middle.x + 40, middle.y + 40});
   double sum = 0, largest = 0;
@@ -229,7 +266,7 @@ TEST_CASE("two draws give the same bytes, also after another and at the same tim
   const Image8 left = noise(101, 67, 1), right = noise(101, 67, 2);
   const Labels labels = labels_with("Twice", true);
   const Image8 first = side_by_side(left, right, labels);
-  screenshot(right, left, {}, 333, 222);
+  window_with(right, left, 333, 222);
   CHECK(side_by_side(left, right, labels).rgb == first.rgb);
   CHECK(side_by_side(right, left, labels).rgb != first.rgb);
 
@@ -244,7 +281,7 @@ TEST_CASE("what cannot be drawn is refused by name, and what draw throws passes 
   CHECK_THROWS_AS(draw_offscreen(0, 5, [](Canvas&) {}), UsageError);
   CHECK_THROWS_AS(draw_offscreen(20000, 5, [](Canvas&) {}), UsageError);
   CHECK_THROWS_AS(draw_offscreen(5, 5, [](Canvas&) { throw std::out_of_range("x"); }), std::out_of_range);
-  CHECK_NOTHROW(screenshot(noise(9, 9, 1), noise(9, 9, 2), labels_with("t", true), 1, 1));
+  CHECK_NOTHROW(window_with(noise(9, 9, 1), noise(9, 9, 2), 1, 1));
 }
 
 #else

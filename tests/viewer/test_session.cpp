@@ -75,7 +75,7 @@ void save_later(const std::string& file, const std::string& text) {
 
 TEST_CASE("session: pictures are the headless ones, after whatever was pressed on the way") {
   const Open open;
-  Session session(open.file, open_small);
+  Session session(open_state(open.file, open_small), open_small);
   check_headless(session);
   CHECK(session.worker().latest().comparison->agrees());
 
@@ -104,7 +104,7 @@ TEST_CASE("session: pictures are the headless ones, after whatever was pressed o
 TEST_CASE("session: a storm of input ends in the last one's pictures, and leaving amid it is clean") {
   const Open open;
   {
-    Session session(open.file, open_small);
+    Session session(open_state(open.file, open_small), open_small);
     for (int i = 0; i < 40; ++i) {
       session.drag_orbit({3, i % 7 - 3.0}, kPanel);
       if (i % 9 == 0) session.press("d", kPanel);
@@ -159,7 +159,7 @@ TEST_CASE("worker: blocks become finer, and a new task cuts them short") {
 
 TEST_CASE("session: modes by their keys, and layers in a ring") {
   const Open open;
-  Session session(open.file, open_small);
+  Session session(open_state(open.file, open_small), open_small);
   const std::vector<std::pair<const char*, Mode>> keys{
       {"1", Mode::side_by_side}, {"2", Mode::swipe},  {"3", Mode::flip},   {"4", Mode::difference},
       {"5", Mode::causes},       {"6", Mode::ledger}, {"9", Mode::raster}, {"9", Mode::raytrace},
@@ -189,7 +189,7 @@ TEST_CASE("session: modes by their keys, and layers in a ring") {
 
 TEST_CASE("session: lessons ask first, then show") {
   const Open open;
-  Session session(open.file, open_small);
+  Session session(open_state(open.file, open_small), open_small);
   session.press("PageDown", kPanel);
   CHECK(session.state().step == 0);
   CHECK_FALSE(session.state().revealed);
@@ -216,7 +216,7 @@ TEST_CASE("session: lessons ask first, then show") {
 
 TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and the picture stays") {
   const Open open;
-  Session session(open.file, open_small);
+  Session session(open_state(open.file, open_small), open_small);
   CHECK_FALSE(session.watch());
   const auto before = session.state().scene;
   save_later(open.file, "[camera]\neye = 3\nlook_at = [0, 0, 0]\nview_height = 1\n");
@@ -246,7 +246,7 @@ TEST_CASE("session: neighbours in the folder, and their ends") {
   const Open open;
   write_bytes(open.folder / "second.toml", kGoodScene);
   write_bytes(open.folder / "tenth.toml", "broken");
-  Session session(open.file, open_small);
+  Session session(open_state(open.file, open_small), open_small);
   session.press("[", kPanel);
   CHECK(session.state().notice.text == "this is the first scene of its folder");
   session.press("]", kPanel);
@@ -260,7 +260,7 @@ TEST_CASE("session: neighbours in the folder, and their ends") {
 
 TEST_CASE("session: slow motion draws the first objects only") {
   const Open open;
-  Session session(open.file, open_small);
+  Session session(open_state(open.file, open_small), open_small);
   session.press("o", kPanel);
   check_headless(session);
   for (int i = 0; i < 2; ++i) session.press("j", kPanel);
@@ -282,7 +282,7 @@ TEST_CASE("session: slow motion draws the first objects only") {
 
 TEST_CASE("session: Escape closes what is open, the window last") {
   const Open open;
-  Session session(open.file, open_small);
+  Session session(open_state(open.file, open_small), open_small);
   session.press("h", kPanel);
   session.inspect({3, 4});
   session.inspect({48, 4});  // outside

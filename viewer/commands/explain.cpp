@@ -3,7 +3,6 @@
 // (common/model/explanation.h); here it is only put into words, or into JSON.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "common/picture/frame.h"
@@ -21,19 +20,6 @@ struct ExplainFlags {
   std::string pixel, sample, json;
 };
 
-// "x,y" with 0 <= x < width and 0 <= y < height.
-glm::ivec2 parse_pair(const std::string& text, int width, int height, const char* flag) {
-  glm::ivec2 at(0);
-  const char* const end = text.data() + text.size();
-  const auto [comma, first_error] = std::from_chars(text.data(), end, at.x);
-  const bool has_comma = first_error == std::errc() && comma != end && *comma == ',';
-  const auto [last, second_error] = has_comma ? std::from_chars(comma + 1, end, at.y) : std::from_chars(end, end, at.y);
-  const bool whole = has_comma && second_error == std::errc() && last == end;
-  if (!whole || at.x < 0 || at.y < 0 || at.x >= width || at.y >= height)
-    throw UsageError(fmt::format("{} wants two numbers x,y from 0,0 to {},{}; got '{}'", flag, width - 1, height - 1, text));
-  return at;
-}
-
 std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel, const std::vector<glm::ivec2>& samples) {
   const auto rasterizer = raster::prepare(job.scene, job.options.threads);
   const auto tracer = raytrace::prepare(job.scene, job.options.threads);
@@ -49,10 +35,10 @@ std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel, con
 int run_explain(const ExplainFlags& flags) {
   const Job job = load_job(flags.job);
   const int n = job.camera.n;
-  const glm::ivec2 pixel = parse_pair(flags.pixel, job.scene.width, job.scene.height, "--pixel");
+  const glm::ivec2 pixel = parse_pixel(flags.pixel, job.scene.width, job.scene.height, "--pixel");
   std::vector<glm::ivec2> samples;
   if (!flags.sample.empty()) {
-    samples.push_back(parse_pair(flags.sample, n, n, "--sample"));
+    samples.push_back(parse_pixel(flags.sample, n, n, "--sample"));
   } else {
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) samples.emplace_back(i, j);
@@ -76,6 +62,9 @@ void add_explain_command(CLI::App& app, int& exit_code) {
   add_job_flags(*verb, flags->job);
   verb->add_option("--pixel", flags->pixel, "the pixel x,y (y down)")->required();
   verb->add_option("--sample", flags->sample, "one of its samples i,j; else all of them");
+  verb->add_option("--set", flags->job.set, "a value of the scene file first, as trace.depth=2; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   verb->add_option("--json", flags->json, "write it as JSON to FILE, - for standard output instead of the text");
   verb->footer(
       "Examples:\n"

@@ -7,19 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "common/model/explanation.h"
 #include "viewer/commands/job.h"
+#include "viewer/report/explain_words.h"
 
 namespace sidelight {
-
-// "primitive 3, sphere of line 40, material red", for a terminal.
-std::string primitive_text(const Scene& scene, std::uint32_t primitive);
-
-struct ExplainedSample {
-  int i = 0, j = 0;   // within the pixel
-  RasterRecord raster;
-  RayRecord raytrace;
-};
 
 // The pixel's colours are the means of the samples given (as PixelMean takes them).
 std::string explanation_text(const Job& job, glm::ivec2 pixel, const std::vector<ExplainedSample>& samples);

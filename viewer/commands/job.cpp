@@ -12,6 +12,7 @@
 #include "common/scene/tessellate.h"
 #include "common/scene/toml.h"
 #include "viewer/commands/interrupt.h"
+#include "viewer/report/shell_word.h"
 
 namespace sidelight {
 namespace {
@@ -57,6 +58,14 @@ Isa parse_isa_flag(const JobFlags& flags) {
   return *isa;
 }
 
+// "trace.depth=2"
+Settings::value_type parse_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos)
+    throw UsageError("--set wants KEY=VALUE, as in --set trace.depth=2; got '" + text + "'");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
 void apply_trace(const JobFlags& flags, TraceSettings& trace) {
   if (flags.depth != 0) trace.depth = flags.depth;
   if (flags.no_shadows || flags.local) trace.shadows = false;
@@ -85,6 +94,14 @@ glm::ivec2 parse_size(const std::string& text, const char* flag) {
   return {size[0], size[1]};
 }
 
+glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag) {
+  const std::vector<int> at = numbers(text, ',');
+  const bool inside = at.size() == 2 && at[0] >= 0 && at[1] >= 0 && at[0] < width && at[1] < height;
+  if (!inside)
+    throw UsageError(fmt::format("{} wants two numbers x,y from 0,0 to {},{}; got '{}'", flag, width - 1, height - 1, text));
+  return {at[0], at[1]};
+}
+
 void add_render_flags(CLI::App& verb, JobFlags& flags) {
   verb.add_option("--spp", flags.spp, "samples per pixel, a square number: 1, 4, 9, ...");
   verb.add_option("--depth", flags.depth, "rays along a path, the eye ray included; 1 to 1000")
@@ -110,7 +127,7 @@ void add_job_flags(CLI::App& verb, JobFlags& flags) {
   add_quiet_flag(verb, flags);
 }
 
-Job load_job(const JobFlags& flags) {
+Job load_job(const JobFlags& flags, const Settings& set) {
   Job job;
   job.flags = flags;
   job.options.isa = parse_isa_flag(flags);
@@ -121,7 +138,9 @@ Job load_job(const JobFlags& flags) {
     throw UsageError(fmt::format("--spp wants a square number from 1 to 4096 (1, 4, 9, 16, ...); got {}", flags.spp));
 
   const double start = wall_ms();
-  job.scene = load_scene(flags.scene);
+  Settings settings = set;
+  for (const std::string& each : flags.set) settings.push_back(parse_setting(each));
+  job.scene = load_scene_with(flags.scene, settings);
   job.load_ms = wall_ms() - start;
   if (!flags.quiet)
     for (const std::string& warning : job.scene.warnings) fmt::print(stderr, "{}\n", printable(warning, 2000));

@@ -14,6 +14,7 @@
 #include "common/picture/image_io.h"
 #include "common/scene/camera.h"
 #include "common/scene/scene.h"
+#include "common/scene/settings.h"
 #include "viewer/commands/fault_flags.h"
 
 namespace sidelight {
@@ -30,6 +31,7 @@ struct JobFlags {
   bool quiet = false;      // -q
   bool no_times = false;   // --no-times
   FaultFlags faults;       // where the verb has them
+  std::vector<std::string> set;   // --set KEY=VALUE, where the verb has it
 };
 
 // Adds the flags to a verb, with their help texts: all of them, those that say how a scene is rendered, or -q alone.
@@ -39,6 +41,9 @@ void add_quiet_flag(CLI::App& verb, JobFlags& flags);
 
 // "640x480", sides from 1 to 65535. Throws UsageError, which names the flag.
 glm::ivec2 parse_size(const std::string& text, const char* flag);
+
+// "x,y" with 0 <= x < width and 0 <= y < height. Throws UsageError, which names the flag.
+glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag);
 
 // A scene ready to be rendered.
 struct Job {
@@ -50,8 +55,8 @@ struct Job {
   double load_ms = 0;
 };
 
-// Loads and validates. Prints the scene's warnings to stderr unless quiet. Throws InputError, UsageError.
-Job load_job(const JobFlags& flags);
+// Loads and validates, with values of the file replaced (toml.h: load_scene_with). Prints the scene's warnings to stderr unless quiet. Throws InputError, UsageError.
+Job load_job(const JobFlags& flags, const Settings& set = {});
 
 // Refuses, before anything is allocated, what the machine's memory cannot hold: an InputError that names the size.
 // Counts `pairs` times two frames with the job's options: both pictures, or one and its file.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// sidelight view: the window with both pictures.
+// sidelight view: the teaching window, or one picture of it drawn off screen.
 #include <fmt/format.h>
 
 #include "viewer/commands/commands.h"
 #include "viewer/commands/interrupt.h"
-#include "viewer/commands/progress.h"
-#include "viewer/commands/renderers.h"
+#include "viewer/commands/job.h"
+#include "viewer/window/keys.h"
 #include "viewer/window/offscreen.h"
 #include "viewer/window/window.h"
 
@@ -14,43 +14,57 @@ namespace {
 
 struct ViewFlags {
   JobFlags job;
-  std::string screenshot, window = "1352x648";
+  std::string mode, inspect, screenshot, window = "1352x648";
+  int step = 0;
 };
 
-TimedFrame render_one(const Job& job, const Renderer& renderer) {
-  RenderOptions options = job.options;
-  ProgressBar bar(std::string(renderer.label), job.flags.quiet);
-  options.progress = bar.callback();
-  return renderer.render(job, job.camera, options);
+// A scene file as the command line wants it, without the faults, which the window puts on itself.
+OpenedScene open_scene(const JobFlags& flags, const std::string& file, const Settings& set) {
+  JobFlags plain = flags;
+  plain.scene = file;
+  plain.faults = {};
+  Job job = load_job(plain, set);
+  OpenedScene opened;
+  opened.faults = parse_faults(flags.faults, job.scene.camera);
+  opened.n = job.camera.n;
+  opened.options = job.options;
+  opened.times = !flags.no_times;
+  check_memory(job);
+  opened.scene = std::move(job.scene);
+  return opened;
 }
 
-PicturePair render_pair(const Job& job) {
-  const TimedFrame left = render_one(job, *find_renderer("raster"));
-  const TimedFrame right = render_one(job, *find_renderer("raytrace"));
-  PicturePair pair;
-  pair.left = to_image8(left.frame.color, left.frame.width(), left.frame.height());
-  pair.right = to_image8(right.frame.color, right.frame.width(), right.frame.height());
-  pair.labels.title = job.scene.title.empty() ? job.flags.scene : job.scene.title;
-  if (!job.flags.no_times) {
-    pair.labels.left.times = Times{left.build_ms, left.frame_ms};
-    pair.labels.right.times = Times{right.build_ms, right.frame_ms};
-  }
-  return pair;
+WindowState first_state(const ViewFlags& flags, const SceneOpener& open) {
+  WindowState state = open_state(flags.job.scene, open);
+  const int steps = static_cast<int>(state.opened.scene.steps.size());
+  if (flags.step > steps)
+    throw UsageError(fmt::format("--step: the scene has {} steps; got {}", steps, flags.step));
+  if (flags.step > 0) reveal_step(state, flags.step - 1, open);
+  if (!flags.mode.empty()) state.mode = *find_mode(flags.mode);
+  if (!flags.inspect.empty())
+    state.inspected = parse_pixel(flags.inspect, state.scene->width, state.scene->height, "--inspect");
+  return state;
 }
 
 int run_view(const ViewFlags& flags) {
   if (flags.screenshot.empty()) require_display();   // before any work
   const glm::ivec2 window = parse_size(flags.window, "--size");
-  const Job job = load_job(flags.job);
-  check_memory(job);
-  const PicturePair pair = render_pair(job);
-  if (!flags.screenshot.empty()) {
-    write_png(flags.screenshot, screenshot(pair.left, pair.right, pair.labels, window.x, window.y),
-              job_metadata(job, "raster, raytrace"));
-    return 0;
+  JobFlags opening = flags.job;
+  const SceneOpener open = [&opening](const std::string& file, const Settings& set) {
+    OpenedScene opened = open_scene(opening, file, set);
+    opening.quiet = true;   // warnings are told once
+    return opened;
+  };
+  WindowState state = first_state(flags, open);
+  if (state.faults.any() && !flags.job.quiet) fmt::print(stderr, "faults on purpose: {}\n", state.faults.text());
+  if (flags.screenshot.empty()) {
+    restore_default_signals();
+    return run_window(std::move(state), open);
   }
-  restore_default_signals();
-  return run_window(pair);
+  const Job job = load_job(opening);   // for the metadata
+  write_png(flags.screenshot, screenshot(state, render_pictures(picture_task(state)), window.x, window.y),
+            job_metadata(job, "raster, raytrace"));
+  return 0;
 }
 
 }  // namespace
@@ -60,14 +74,22 @@ void add_view_command(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("view", "the window: two pictures side by side, linked");
   add_job_flags(*verb, flags->job);
   add_fault_flags(*verb, flags->job.faults);
+  const std::vector<std::string> modes(kStepModes.begin(), kStepModes.end());
+  verb->add_option("--mode", flags->mode, "first: side-by-side, swipe, flip, difference, causes, ledger, or a layer")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(modes).description(""));
+  verb->add_option("--step", flags->step, "the lesson's step N is shown first")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100).description(""));
+  verb->add_option("--inspect", flags->inspect, "the pixel x,y is inspected first");
   verb->add_flag("--no-times", flags->job.no_times, "leave times out");
   verb->add_option("--screenshot", flags->screenshot, "draw the window off screen into FILE.png instead");
   verb->add_option("--size", flags->window, "size of that window")->capture_default_str();
   verb->footer(
-      "Keys: wheel zooms, drag moves, 0 shows all, space swaps the two in place, Esc closes.\n"
+      "In the window h shows the keys.\n"
       "Examples:\n"
       "  sidelight view scenes/showcase.toml\n"
-      "  sidelight view scenes/07-mirrors.toml --depth 3 --screenshot mirrors.png");
+      "  sidelight view scenes/07-mirrors.toml --mode causes --inspect 20,20 --screenshot mirrors.png");
   verb->callback([flags, &exit_code] { exit_code = run_view(*flags); });
 }
 

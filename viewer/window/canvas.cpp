@@ -81,7 +81,21 @@ void Canvas::set_scale(double scale) {
   load_fonts();
 }
 
+// Widgets as large as the text, in the colours of the page.
+void Canvas::set_style() {
+  ImGuiStyle style;
+  ImGui::StyleColorsDark(&style);
+  style.WindowRounding = style.FrameRounding = style.GrabRounding = 4;
+  style.WindowPadding = {12, 10};
+  style.FramePadding = {9, 4};
+  style.ScaleAllSizes(static_cast<float>(scale_));
+  style.Colors[ImGuiCol_WindowBg] = {0.125f, 0.137f, 0.165f, 1};
+  style.Colors[ImGuiCol_Text] = {0.94f, 0.95f, 0.96f, 1};
+  ImGui::GetStyle() = style;
+}
+
 void Canvas::load_fonts() {
+  set_style();
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   fonts_.small = add_font(atlas, kSmallText * scale_);  // the first is ImGui's own default
@@ -99,6 +113,14 @@ ImTextureID Canvas::add_picture(const Image8& image) {
   return texture_id(pictures_.emplace_back(make_picture_texture(gl_, image)));
 }
 
+void Canvas::set_pointer(glm::dvec2 position, bool left_down, double wheel) {
+  const CurrentContext current(context_.get());
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = {static_cast<float>(position.x), static_cast<float>(position.y)};
+  io.MouseDown[0] = left_down;
+  io.MouseWheel += static_cast<float>(wheel);
+}
+
 void Canvas::draw(int width, int height, const std::function<void()>& contents) {
   const CurrentContext current(context_.get());
   ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
@@ -111,6 +133,7 @@ void Canvas::draw(int width, int height, const std::function<void()>& contents) 
   }
   ImGui::Render();
   painter_.paint(*ImGui::GetDrawData());
+  wants_pointer_ = ImGui::GetIO().WantCaptureMouse;
 }
 
 }  // namespace sidelight

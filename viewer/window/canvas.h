@@ -11,6 +11,7 @@
 #include <imgui.h>
 
 #include <functional>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,9 +42,16 @@ class Canvas {
   double scale() const { return scale_; }
   const Fonts& fonts() const { return fonts_; }
 
-  // Uploads a picture; the handle is good as long as the canvas. Throws UsageError if it is too large for
-  // OpenGL.
+  // Uploads a picture; the handle is good until clear_pictures, or as long as the canvas. Throws UsageError if it is
+  // too large for OpenGL.
   ImTextureID add_picture(const Image8& image);
+  // Drops all pictures; not within draw.
+  void clear_pictures() { pictures_.clear(); }
+
+  // What the mouse did since the last frame, for the widgets: its place in device pixels, the left button, the wheel.
+  void set_pointer(glm::dvec2 position, bool left_down, double wheel);
+  // The widgets of the last frame want the mouse: it is over one, or one is held.
+  bool wants_pointer() const { return wants_pointer_; }
 
   // One frame: `contents` calls ImGui, and the result is painted over the framebuffer of width x height. No
   // canvas may be used within `contents` but this one's fonts. What `contents` throws passes through.
@@ -53,6 +61,7 @@ class Canvas {
   void finish() const { gl_.Finish(); }
 
  private:
+  void set_style();
   void load_fonts();
 
   struct DestroyContext {
@@ -66,6 +75,7 @@ class Canvas {
   std::optional<GlObject> font_texture_;
   std::vector<GlObject> pictures_;
   std::unique_ptr<ImGuiContext, DestroyContext> context_;
+  bool wants_pointer_ = false;
 };
 
 }  // namespace sidelight

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/window/keys.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
@@ -55,6 +53,8 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {"r", Action::refraction},
     {"a", Action::more_samples},
     {"A", Action::fewer_samples},
+    {"y", Action::copy_command},
+    {"s", Action::save},
     {"z", Action::reset},
     {"c", Action::controls},
     {"l", Action::lesson},
@@ -90,12 +90,14 @@ constexpr auto kMoving = std::to_array<KeyHelp>({
     {"a A", "more, fewer samples"},
     {"c", "controls"},
     {"z", "reset"},
+    {"s", "save as a new scene"},
 });
 constexpr auto kTeaching = std::to_array<KeyHelp>({
     {"n p", "next, previous step (PageDown, PageUp)"},
     {"l", "lesson text"},
     {"] [", "next, previous scene"},
     {"click, i", "inspect a pixel"},
+    {"y", "copy as command"},
     {"o", "slow motion"},
     {"k j", "  more, fewer"},
     {"t", "text size"},
@@ -118,23 +120,5 @@ std::optional<Action> action_of(std::string_view key) {
 }
 
 std::span<const KeyGroup> key_help() { return kGroups; }
-
-std::string key_help_text() {
-  std::string out;
-  for (const KeyGroup& group : kGroups) {
-    std::string line = fmt::format("{}:", group.title);
-    for (const KeyHelp& help : group.lines) {
-      const std::string part =
-          fmt::format(" {} {}{}", help.keys, help.text, &help == &group.lines.back() ? "" : ";");
-      if (line.size() + part.size() > 100) {
-        out += line + "\n";
-        line = " ";
-      }
-      line += part;
-    }
-    out += line + "\n";
-  }
-  return out;
-}
 
 }  // namespace sidelight

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the keys do: the one table, from which the window acts, the help overlay is drawn and the verb's help is
-// written. A key is named by the character it types, or by its name: "Space", "PageDown", "Shift+Left".
+// What the keys do: the one table, from which the window acts and the help overlay is drawn. A key is named by the character it types, or by its name: "Space", "PageDown", "Shift+Left".
 #pragma once
 
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace sidelight {
@@ -51,6 +49,8 @@ enum class Action {
   refraction,
   more_samples,
   fewer_samples,
+  copy_command,
+  save,
   reset,
   controls,
   lesson,
@@ -78,8 +78,5 @@ struct KeyGroup {
   std::span<const KeyHelp> lines;
 };
 std::span<const KeyGroup> key_help();
-
-// The same as plain text, a line each, for a terminal.
-std::string key_help_text();
 
 }  // namespace sidelight

@@ -74,6 +74,15 @@ Layout with_captions_at(const Layout& layout, glm::ivec2 inset, double scale) {
   return moved;
 }
 
+Layout joined(const Layout& layout) {
+  Layout one = layout;
+  one.left.x1 = layout.right.x1;
+  one.left_caption.x1 = layout.right_caption.x1;
+  one.left_times.x1 = layout.right_times.x1;
+  for (Rect* empty : {&one.right, &one.right_caption, &one.right_times}) empty->x0 = empty->x1;
+  return one;
+}
+
 glm::ivec2 panel_for(glm::ivec2 picture, const LayoutOptions& options) {
   return {std::max(picture.x, caption_width(options.scale)), picture.y};
 }

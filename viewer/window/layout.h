@@ -48,6 +48,9 @@ glm::ivec2 layout_size(glm::ivec2 panel, const LayoutOptions& options);
 // `inset` >= 0, but never so far right that they would be cut.
 Layout with_captions_at(const Layout& layout, glm::ivec2 inset, double scale);
 
+// The same layout with one wide panel: left, with its caption and times, as wide as both were. Right is empty.
+Layout joined(const Layout& layout);
+
 // The panel size for pictures of `picture` pixels at zoom 1: the picture, widened if it is too narrow for
 // captions.
 glm::ivec2 panel_for(glm::ivec2 picture, const LayoutOptions& options);

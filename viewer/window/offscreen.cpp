@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "viewer/window/canvas.h"
+#include "viewer/window/window_panels.h"
 
 #ifdef SIDELIGHT_HAVE_OSMESA
 #include <GL/osmesa.h>
@@ -49,10 +50,22 @@ PictureBoxes side_by_side_boxes(glm::ivec2 picture, const Labels& labels) {
   return {box(layout.left), box(layout.right)};
 }
 
-Image8 screenshot(const Image8& left, const Image8& right, const Labels& labels, int width, int height) {
-  const glm::ivec2 size(width, height);
-  return draw_comparison_offscreen(left, right, labels, size,
-                                   make_layout(size, layout_options(labels, true)));
+Image8 screenshot(const WindowState& state, const Pictures& pictures, int width, int height) {
+  const Shown shown = show(state, pictures, pictures);
+  const std::optional<Inspection> inspection = inspect_pixel(state);
+  return draw_offscreen(width, height, [&](Canvas& canvas) {
+    canvas.set_scale(state.text_scale);
+    WindowState fitted = state;
+    const WindowLayout layout = window_layout(state, {width, height}, canvas.scale());
+    fitted.view = clamp(state.view, picture_size(state), layout.panels.left);
+    std::vector<void*> textures;
+    for (const ShownPanel& panel : shown.panels) textures.push_back(canvas.add_picture(panel.image));
+    // Twice, as in the window: widgets know their sizes from the frame before.
+    for (int frame = 0; frame < 2; ++frame)
+      canvas.draw(width, height, [&] {
+        draw_window(canvas, {fitted, pictures, pictures, shown, textures, inspection ? &*inspection : nullptr}, layout);
+      });
+  });
 }
 
 #ifdef SIDELIGHT_HAVE_OSMESA

@@ -14,6 +14,7 @@
 
 #include "common/picture/image_io.h"
 #include "viewer/window/panels.h"
+#include "viewer/window/state.h"
 
 namespace sidelight {
 
@@ -32,7 +33,7 @@ struct PictureBoxes {
 };
 PictureBoxes side_by_side_boxes(glm::ivec2 picture, const Labels& labels);
 
-// What a window of this size shows when it opens. Throws as side_by_side does.
-Image8 screenshot(const Image8& left, const Image8& right, const Labels& labels, int width, int height);
+// What a window of this size shows of the state, with everything drawn to the end: the window's own pixels.
+Image8 screenshot(const WindowState& state, const Pictures& pictures, int width, int height);
 
 }  // namespace sidelight

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is drawn: the two pictures side by side with title, captions and times. The window and the pictures
-// drawn off screen both come from draw_comparison, so a screenshot is what the window shows.
+// Two finished pictures side by side, with title, captions and times, as `compare` draws them. The window is drawn from
+// the same parts (paint.h) by window_panels.h.
 //
 // Pictures are shown pixel for pixel: at whole zooms every device pixel is a copy of the picture's own bytes.
 #pragma once
@@ -18,6 +18,7 @@ class Canvas;
 
 struct Times {
   double build_ms = 0, frame_ms = 0;
+  std::string rate = {};   // "3.1 M rays/s"; empty: not said
 };
 
 // Text over one picture. Any text may be given: control characters and broken UTF-8 are shown as \xNN, and
@@ -33,17 +34,11 @@ struct Labels {
   Caption right{"ray tracer: shadows, mirrors, glass", {}};
 };
 
-// The two pictures and what is said about them; left and right as before any flip.
-struct PicturePair {
-  Image8 left, right;
-  Labels labels;
-};
-
 // Throws std::invalid_argument, naming both sizes, unless the pictures have one size, of at least 1x1, and as
 // many bytes as that needs.
 void check_pictures(const Image8& left, const Image8& right);
 
-// The lines that these labels need; the footer (zoom and keys) belongs to the window.
+// The lines that these labels need; the footer (buttons) belongs to the window.
 LayoutOptions layout_options(const Labels& labels, bool footer, double scale = 1);
 
 // The comparison as uploaded to a canvas: handles of its textures, as Canvas::add_picture gave them.

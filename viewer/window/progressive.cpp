@@ -51,11 +51,6 @@ std::optional<Comparison> compare_pictures(const Pictures& pictures) {
 
 }  // namespace
 
-Rect PictureTask::shown() const {
-  const Rect& crop = options.crop;
-  return crop.width() > 0 && crop.height() > 0 ? crop : Rect{0, 0, scene->width, scene->height};
-}
-
 // Lives as long as its scene is drawn: a moved camera builds nothing.
 class BuiltScene {
  public:

@@ -34,7 +34,6 @@ struct PictureTask {
   std::size_t objects = kAllObjects;  // the z-buffer draws only so many, the first ones
 
   Camera made_camera() const { return make_camera(camera, scene->width, scene->height, n); }
-  Rect shown() const;  // the crop, or the whole picture
 };
 
 struct RendererTimes {

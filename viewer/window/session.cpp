@@ -86,10 +86,12 @@ void Session::act(Action action, const Rect& panel) {
     case Action::zoom_out:
       return zoom(-1, panel);
     case Action::whole_picture:
-      state_.view = fit(state_.view, {state_.scene->width, state_.scene->height}, panel);
+      state_.view = fit(state_.view, picture_size(state_), panel);
       return;
     case Action::inspect:
-      if (state_.cursor) inspect(glm::ivec2(glm::floor(*state_.cursor)));
+      if (state_.cursor)
+        inspect(glm::ivec2(glm::floor(*state_.cursor)) +
+                glm::ivec2(shown_part(state_).x0, shown_part(state_).y0));
       return;
     case Action::next_step:
       return next_step();
@@ -120,6 +122,10 @@ void Session::act(Action action, const Rect& panel) {
       return set_samples_per_edge(state_.n + 1);
     case Action::fewer_samples:
       return set_samples_per_edge(state_.n - 1);
+    case Action::copy_command:
+      return copy();
+    case Action::save:
+      return save();
     case Action::reset:
       return reset();
     case Action::controls:
@@ -164,12 +170,10 @@ void Session::swap_or_advance() {
 
 void Session::set_swipe(double part) { state_.swipe = std::clamp(part, 0.0, 1.0); }
 
-void Session::fit_panel(const Rect& panel) {
-  state_.view = clamp(state_.view, {state_.scene->width, state_.scene->height}, panel);
-}
+void Session::fit_panel(const Rect& panel) { state_.view = clamp(state_.view, picture_size(state_), panel); }
 
 void Session::wheel(int steps, glm::dvec2 cursor, const Rect& panel) {
-  state_.view = zoom_about(state_.view, {state_.scene->width, state_.scene->height}, panel, cursor, steps);
+  state_.view = zoom_about(state_.view, picture_size(state_), panel, cursor, steps);
 }
 
 void Session::zoom(int steps, const Rect& panel) {
@@ -179,7 +183,7 @@ void Session::zoom(int steps, const Rect& panel) {
 }
 
 void Session::drag_pictures(glm::dvec2 by, const Rect& panel) {
-  state_.view = pan(state_.view, {state_.scene->width, state_.scene->height}, panel, by);
+  state_.view = pan(state_.view, picture_size(state_), panel, by);
 }
 
 void Session::inspect(glm::ivec2 pixel) {

@@ -8,13 +8,12 @@
 #include <string>
 #include <string_view>
 
+#include "common/scene/settings.h"
 #include "viewer/window/keys.h"
 #include "viewer/window/progressive.h"
 #include "viewer/window/state.h"
 
 namespace sidelight {
-
-using Settings = std::vector<std::pair<std::string, std::string>>;
 
 // Loads a scene file with a lesson's settings and the command line's flags. Throws as the program's verbs do.
 using SceneOpener = std::function<OpenedScene(const std::string& file, const Settings& set)>;
@@ -22,13 +21,22 @@ using SceneOpener = std::function<OpenedScene(const std::string& file, const Set
 // A state that shows the scene as it opens. Throws what `open` throws.
 WindowState open_state(const std::string& file, const SceneOpener& open);
 
+// A lesson's step as settings: its values, then its eye.
+Settings settings_of(const Step& step);
+
+// What to set in the scene's file to get what is shown, faults and samples apart. Throws InputError if the file is gone.
+Settings settings_shown(const WindowState& state);
+
+// The command that tells of the inspected pixel what the inspector tells.
+std::string explain_command(const WindowState& state);
+
 // Puts step `number` (from 0) of the scene's lesson on the screen. Throws what `open` throws.
 void reveal_step(WindowState& state, int number, const SceneOpener& open);
 
 class Session {
  public:
-  // `notify`: as of Progressive. Throws what `open` throws.
-  Session(const std::string& file, SceneOpener open, std::function<void()> notify = {});
+  // `state` as open_state gives it, `notify` as of Progressive.
+  Session(WindowState state, SceneOpener open, std::function<void()> notify = {});
 
   const WindowState& state() const { return state_; }
   const Progressive& worker() const { return worker_; }
@@ -55,15 +63,17 @@ class Session {
   void set_faults(const Faults& faults);
   void set_samples_per_edge(int n);
   void set_slow(int objects, int rows);
+  void choose_material(int number) { state_.material = number; }
 
   // Looks whether the file was saved since; loads it again if so. A mistake in it becomes the notice, and what was
   // shown stays. Returns whether something changed.
   bool watch();
 
-  // Messages from elsewhere, such as where a file was saved.
-  void tell(Notice notice) { state_.notice = std::move(notice); }
+  // What the user asked to copy since; for the system's clipboard.
+  std::string take_clipboard() { return std::exchange(state_.clipboard, {}); }
 
  private:
+  void tell(Notice notice) { state_.notice = std::move(notice); }
   void redraw();
   void load(const std::string& file);
   void go_to_step(int step, bool revealed);
@@ -71,6 +81,8 @@ class Session {
   void previous_step();
   void open_neighbour(int by);
   void reset();
+  void copy();
+  void save();
   void escape();
   void choose_layer(int by);
   void swap_or_advance();

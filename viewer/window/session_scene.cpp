@@ -29,10 +29,14 @@ void start_over(WindowState& state) {
 
 bool inside(const Scene& scene, glm::ivec2 pixel) { return pixel.x < scene.width && pixel.y < scene.height; }
 
-// A key path and its value, as the scene file writes it.
-std::string point_text(const glm::dvec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); }
-
 }  // namespace
+
+Settings settings_of(const Step& step) {
+  Settings settings = step.set;
+  if (step.eye)
+    settings.emplace_back("camera.eye", fmt::format("[{}, {}, {}]", step.eye->x, step.eye->y, step.eye->z));
+  return settings;
+}
 
 WindowState open_state(const std::string& file, const SceneOpener& open) {
   WindowState state;
@@ -44,9 +48,7 @@ WindowState open_state(const std::string& file, const SceneOpener& open) {
 
 void reveal_step(WindowState& state, int number, const SceneOpener& open) {
   const Step step = state.opened.scene.steps.at(static_cast<std::size_t>(number));
-  Settings settings = step.set;
-  if (step.eye) settings.emplace_back("camera.eye", point_text(*step.eye));
-  const OpenedScene opened = open(state.file, settings);
+  const OpenedScene opened = open(state.file, settings_of(step));
   use_scene(state, std::make_shared<const Scene>(opened.scene));
   state.camera = state.scene->camera;
   state.step = number;
@@ -57,8 +59,8 @@ void reveal_step(WindowState& state, int number, const SceneOpener& open) {
   if (state.inspected && !inside(*state.scene, *state.inspected)) state.inspected.reset();
 }
 
-Session::Session(const std::string& file, SceneOpener open, std::function<void()> notify)
-    : open_(std::move(open)), state_(open_state(file, open_)), worker_(std::move(notify)) {
+Session::Session(WindowState state, SceneOpener open, std::function<void()> notify)
+    : open_(std::move(open)), state_(std::move(state)), worker_(std::move(notify)) {
   note_file_time();
   redraw();
 }

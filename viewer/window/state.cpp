@@ -17,7 +17,10 @@ PictureTask picture_task(const WindowState& state) {
   return task;
 }
 
-int sample_count(const WindowState& state) { return state.n * state.n; }
+Rect shown_part(const WindowState& state) {
+  const Rect& crop = state.opened.options.crop;
+  return crop.width() > 0 ? crop : Rect{0, 0, state.scene->width, state.scene->height};
+}
 
 std::string window_title(const WindowState& state) {
   const std::string& title = state.scene->title.empty() ? state.file : state.scene->title;

@@ -57,13 +57,20 @@ struct WindowState {
   bool revealed = false;  // else its question stands there, and nothing has happened yet
   bool lesson = false, controls = false, help = false;
   double text_scale = 1;
+  int material = 0;  // that the controls show
   Notice notice;
+  std::string clipboard;  // what the user asked to copy; the window hands it on
 };
 
 // What the worker is to draw for it.
 PictureTask picture_task(const WindowState& state);
 
-int sample_count(const WindowState& state);
+// The part of the whole picture that is drawn; the view's picture is this part.
+Rect shown_part(const WindowState& state);
+inline glm::ivec2 picture_size(const WindowState& state) {
+  const Rect part = shown_part(state);
+  return {part.width(), part.height()};
+}
 
 // "scene, with FAULTS ON PURPOSE": what every picture of it must say.
 std::string window_title(const WindowState& state);

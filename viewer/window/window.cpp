@@ -10,9 +10,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <memory>
+#include <utility>
 
 #include "viewer/window/canvas.h"
+#include "viewer/window/window_panels.h"
 #endif
 
 namespace sidelight {
@@ -60,29 +63,68 @@ WindowHandle make_window(const std::string& title) {
   return window;
 }
 
-// The state of an open window, and what its events do to it.
-class ComparisonWindow {
+// What keys are called (keys.h), where they do not type a character. GLFW names keys by their place on an American
+// keyboard, so letters and digits come as characters.
+std::string key_name(int key, int modifiers) {
+  const std::string shift = modifiers & GLFW_MOD_SHIFT ? "Shift+" : "";
+  switch (key) {
+    case GLFW_KEY_ESCAPE:
+      return "Esc";
+    case GLFW_KEY_HOME:
+      return "Home";
+    case GLFW_KEY_PAGE_UP:
+      return "PageUp";
+    case GLFW_KEY_PAGE_DOWN:
+      return "PageDown";
+    case GLFW_KEY_F1:
+      return "F1";
+    case GLFW_KEY_LEFT:
+      return shift + "Left";
+    case GLFW_KEY_RIGHT:
+      return shift + "Right";
+    case GLFW_KEY_UP:
+      return shift + "Up";
+    case GLFW_KEY_DOWN:
+      return shift + "Down";
+    default:
+      return {};
+  }
+}
+
+std::string character_name(unsigned character) {
+  if (character == ' ') return "Space";
+  return character < 0x80 ? std::string(1, static_cast<char>(character)) : std::string();
+}
+
+// An open window: its events become the session's, the session's state becomes its picture.
+class SessionWindow {
  public:
-  explicit ComparisonWindow(const PicturePair& comparison)
-      : labels_(comparison.labels),
-        window_(make_window(comparison.labels.title)),
+  SessionWindow(WindowState state, const SceneOpener& open)
+      : window_(make_window(window_title(state))),
         canvas_(glfwGetProcAddress, content_scale()),
-        pictures_{canvas_.add_picture(comparison.left),
-                  canvas_.add_picture(comparison.right),
-                  {comparison.left.width, comparison.left.height}} {
+        session_(std::move(state), open, [] { glfwPostEmptyEvent(); }) {
     set_initial_size();
     set_callbacks();
     glfwShowWindow(window_.get());
   }
 
   void run() {
-    while (glfwWindowShouldClose(window_.get()) == GLFW_FALSE) {
-      if (stale_) redraw();
-      glfwWaitEvents();
+    while (glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !session_.closed()) {
+      take_pictures();
+      if (stale_ > 0) redraw();
+      // Widgets need a frame more than there are events: one to see the button go down, one to see it up.
+      if (stale_ > 0)
+        glfwPollEvents();
+      else
+        glfwWaitEventsTimeout(kWatchSeconds);
+      if (session_.watch()) touch();
     }
   }
 
  private:
+  static constexpr double kWatchSeconds = 0.25;
+  static constexpr int kFrames = 3;  // drawn after the last event
+
   double content_scale() const {
     float x = 1, y = 1;
     glfwGetWindowContentScale(window_.get(), &x, &y);
@@ -106,7 +148,8 @@ class ComparisonWindow {
   // Both pictures at the largest whole zoom for which the window fits on the screen, or else the whole
   // screen.
   void set_initial_size() {
-    const LayoutOptions options = layout_options(labels_, true, canvas_.scale());
+    const WindowState& state = session_.state();
+    const LayoutOptions options{canvas_.scale(), true, state.opened.times, true};
     int x = 0, y = 0, width = 1280, height = 720;
     if (GLFWmonitor* monitor = glfwGetPrimaryMonitor())
       glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
@@ -114,8 +157,9 @@ class ComparisonWindow {
     const glm::dvec2 ratio = pixel_ratio();
     const glm::ivec2 room(glm::dvec2(width, height - kTitleBar * canvas_.scale() / ratio.y) * ratio);
 
-    const double zoom = std::max(1.0, fit(View{}, pictures_.size, make_layout(room, options).left).zoom);
-    const glm::ivec2 panel = panel_for(pictures_.size * static_cast<int>(zoom), options);
+    const glm::ivec2 picture = picture_size(state);
+    const double zoom = std::max(1.0, fit(View{}, picture, make_layout(room, options).left).zoom);
+    const glm::ivec2 panel = panel_for(picture * static_cast<int>(zoom), options);
     const glm::dvec2 size = glm::dvec2(glm::min(layout_size(panel, options), room)) / ratio;
     glfwSetWindowSize(window_.get(), static_cast<int>(std::ceil(size.x)),
                       static_cast<int>(std::ceil(size.y)));
@@ -124,96 +168,174 @@ class ComparisonWindow {
   void set_callbacks() {
     GLFWwindow* window = window_.get();
     glfwSetWindowUserPointer(window, this);
-    static const auto self = [](GLFWwindow* w) {
-      return static_cast<ComparisonWindow*>(glfwGetWindowUserPointer(w));
+    static const auto self = [](GLFWwindow* w) -> SessionWindow& {
+      auto& that = *static_cast<SessionWindow*>(glfwGetWindowUserPointer(w));
+      that.touch();
+      return that;
     };
-    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { self(w)->stale_ = true; });
-    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { self(w)->stale_ = true; });
-    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { self(w)->stale_ = true; });
-    glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { self(w)->scroll(y); });
-    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { self(w)->move_cursor({x, y}); });
-    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
-      if (action == GLFW_PRESS) self(w)->press(key);
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { self(w); });
+    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { self(w); });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { self(w); });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { self(w).scroll(y); });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { self(w).move_cursor({x, y}); });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int which, int action, int) {
+      self(w).press_button(which, action == GLFW_PRESS);
     });
-    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) { self(w)->type(character); });
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+      if (action != GLFW_RELEASE) self(w).press(key_name(key, modifiers));
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned c) { self(w).press(character_name(c)); });
   }
 
-  void show(const View& view) {
-    view_ = view;
-    stale_ = true;
+  void touch() { stale_ = kFrames; }
+  bool is_down(int key) const { return glfwGetKey(window_.get(), key) == GLFW_PRESS; }
+  bool shift() const { return is_down(GLFW_KEY_LEFT_SHIFT) || is_down(GLFW_KEY_RIGHT_SHIFT); }
+  bool control() const { return is_down(GLFW_KEY_LEFT_CONTROL) || is_down(GLFW_KEY_RIGHT_CONTROL); }
+
+  // The panel under the cursor, or else the first.
+  const Rect& panel() const {
+    return panel_at(layout_, cursor_) == 1 ? layout_.panels.right : layout_.panels.left;
   }
+
+  void press(const std::string& key) { session_.press(key, panel()); }
 
   void scroll(double amount) {
+    if (canvas_.wants_pointer()) return canvas_.set_pointer(cursor_, widget_button_, amount);
     scrolled_ += amount;  // touchpads scroll in parts of a step
     const double steps = std::trunc(scrolled_);
     scrolled_ -= steps;
-    const bool over_right = cursor_.x >= layout_.right.x0;
-    const Rect& panel = over_right ? layout_.right : layout_.left;
-    show(zoom_about(view_, pictures_.size, panel, cursor_, static_cast<int>(steps)));
+    if (steps == 0) return;
+    if (control())
+      session_.dolly_by(static_cast<int>(steps));
+    else
+      session_.wheel(static_cast<int>(steps), cursor_, panel());
+  }
+
+  // A press that moves no further than this before the button comes up is a click.
+  static constexpr double kClickReach = 4;
+
+  void press_button(int which, bool down) {
+    const bool left = which == GLFW_MOUSE_BUTTON_LEFT;
+    if (down && canvas_.wants_pointer()) {
+      widget_button_ = left;
+    } else if (down && panel_at(layout_, cursor_) >= 0) {
+      held_ = which;
+      pressed_at_ = cursor_;
+      dragged_ = false;
+    } else if (!down) {
+      if (which == held_ && left && !dragged_ && session_.state().cursor)
+        session_.act(Action::inspect, panel());
+      if (left) widget_button_ = false;
+      held_ = -1;
+    }
+    canvas_.set_pointer(cursor_, widget_button_, 0);
   }
 
   void move_cursor(glm::dvec2 window_position) {
-    const glm::dvec2 position = window_position * pixel_ratio();
-    const bool dragging = glfwGetMouseButton(window_.get(), GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
-                          glfwGetMouseButton(window_.get(), GLFW_MOUSE_BUTTON_MIDDLE) == GLFW_PRESS;
-    if (dragging) show(pan(view_, pictures_.size, layout_.left, position - cursor_));
+    const glm::dvec2 position = window_position * pixel_ratio(), by = position - cursor_;
     cursor_ = position;
+    canvas_.set_pointer(cursor_, widget_button_, 0);
+    if (held_ >= 0 && glm::distance(cursor_, pressed_at_) > kClickReach * canvas_.scale()) dragged_ = true;
+    if (held_ >= 0 && dragged_) drag(by);
+    point_at_picture();
   }
 
-  void press(int key) {
-    if (key == GLFW_KEY_ESCAPE) close();
-    if (key == GLFW_KEY_HOME) show(fit(view_, pictures_.size, layout_.left));
+  void drag(glm::dvec2 by) {
+    const Rect& box = layout_.panels.left;
+    const View& view = session_.state().view;
+    if (held_ == GLFW_MOUSE_BUTTON_RIGHT)
+      session_.drag_pictures(by, box);
+    else if (session_.state().mode == Mode::swipe)
+      session_.set_swipe((cursor_.x - picture_origin(view, box).x) /
+                         (view.zoom * picture_size(session_.state()).x));
+    else if (held_ == GLFW_MOUSE_BUTTON_MIDDLE || shift())
+      session_.drag_slide(by, box);
+    else
+      session_.drag_orbit(by, box);
   }
 
-  // Characters, not keys: GLFW names keys by their place on an American keyboard.
-  void type(unsigned character) {
-    if (character == 'q' || character == 'Q') close();
-    if (character == '0') show(fit(view_, pictures_.size, layout_.left));
-    if (character == ' ') {
-      View flipped = view_;
-      flipped.flipped = !flipped.flipped;
-      show(flipped);
+  void point_at_picture() {
+    const int which = panel_at(layout_, cursor_);
+    const glm::dvec2 at =
+        (cursor_ - picture_origin(session_.state().view, panel())) / session_.state().view.zoom;
+    const glm::dvec2 size(picture_size(session_.state()));
+    const bool inside = which >= 0 && at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y;
+    session_.point_at(inside ? std::optional(at) : std::nullopt);
+  }
+
+  // What the worker has drawn since, as textures; and the records of the inspected pixel, once the picture rests.
+  void take_pictures() {
+    latest_ = session_.worker().latest();
+    finished_ = session_.worker().last_finished();
+    const WindowState& state = session_.state();
+    const ShownKey key = shown_key(state, latest_, finished_);
+    if (!key_ || *key_ != key) {
+      key_ = key;
+      shown_ = show(state, latest_, finished_);
+      canvas_.clear_pictures();
+      textures_.clear();
+      for (const ShownPanel& each : shown_.panels) textures_.push_back(canvas_.add_picture(each.image));
+      touch();
+    }
+    const bool stands = inspection_ && state.inspected == inspection_->pixel &&
+                        inspection_->scene == state.drawn && inspection_->camera.eye == state.camera.eye &&
+                        inspection_->camera.n == state.n;
+    if (!state.inspected) inspection_.reset();
+    if (state.inspected && !stands && session_.worker().idle()) {
+      inspection_ = inspect_pixel(state);
+      touch();
     }
   }
 
-  void close() { glfwSetWindowShouldClose(window_.get(), GLFW_TRUE); }
-
   void redraw() {
-    stale_ = false;
+    --stale_;
     const glm::ivec2 size = framebuffer_size();
     if (size.x < 1 || size.y < 1) return;  // minimised
-    canvas_.set_scale(content_scale());
-    layout_ = make_layout(size, layout_options(labels_, true, canvas_.scale()));
-    view_ = clamp(view_, pictures_.size, layout_.left);
-    canvas_.draw(size.x, size.y, [&] { draw_comparison(canvas_, pictures_, labels_, layout_, view_); });
+    canvas_.set_scale(content_scale() * session_.state().text_scale);
+    layout_ = window_layout(session_.state(), size, canvas_.scale());
+    session_.fit_panel(layout_.panels.left);
+    std::vector<Command> commands;
+    canvas_.draw(size.x, size.y, [&] {
+      commands = draw_window(
+          canvas_,
+          {session_.state(), latest_, finished_, shown_, textures_, inspection_ ? &*inspection_ : nullptr},
+          layout_);
+    });
     glfwSwapBuffers(window_.get());
+    for (const Command& command : commands) command(session_);
+    if (!commands.empty()) touch();
+    if (std::string text = session_.take_clipboard(); !text.empty())
+      glfwSetClipboardString(window_.get(), text.c_str());
   }
 
-  Labels labels_;
   GlfwLibrary library_;
   WindowHandle window_;
   Canvas canvas_;
-  ShownPictures pictures_;
-  Layout layout_;
-  View view_;
-  glm::dvec2 cursor_{0};  // device pixels
-  double scrolled_ = 0;   // parts of a wheel step not yet used
-  bool stale_ = true;
+  Session session_;
+  WindowLayout layout_;
+  Pictures latest_, finished_;
+  std::optional<ShownKey> key_;  // of what is in shown_ and textures_
+  Shown shown_;
+  std::vector<void*> textures_;
+  std::optional<Inspection> inspection_;
+  glm::dvec2 cursor_{0}, pressed_at_{0};  // device pixels
+  int held_ = -1;                         // button that went down on a picture
+  bool dragged_ = false, widget_button_ = false;
+  double scrolled_ = 0;  // parts of a wheel step not yet used
+  int stale_ = kFrames;  // frames still to be drawn
 };
 
 }  // namespace
 
 void require_display() { const GlfwLibrary library; }
 
-int run_window(const PicturePair& comparison) {
-  check_pictures(comparison.left, comparison.right);
-  ComparisonWindow(comparison).run();
+int run_window(WindowState state, const SceneOpener& open) {
+  SessionWindow(std::move(state), open).run();
   return 0;
 }
 #else
 void require_display() { throw NoDisplay("this build of sidelight has no window"); }
-int run_window(const PicturePair& comparison) {
-  check_pictures(comparison.left, comparison.right);
+int run_window(WindowState, const SceneOpener&) {
   require_display();
   return 0;
 }

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The window of `sidelight view`: both pictures side by side, with linked zoom and pan. It shows two finished
-// pictures and is drawn by draw_comparison (panels.h); here are only GLFW, the keys and the mouse.
-//
-//     wheel        zoom about the cursor        0, Home     the whole picture again
-//     drag         move                         space       swap the two pictures in place
-//                                               Esc, q      close
+// The window of `sidelight view` on a screen: here are only GLFW, its events and its frames. What they do is the
+// session's (session.h), what is drawn is window_panels.h's, which keys there are says keys.h.
 #pragma once
 
 #include <stdexcept>
 
-#include "viewer/window/panels.h"
+#include "viewer/window/session.h"
 
 namespace sidelight {
 
@@ -24,8 +20,7 @@ class NoDisplay : public std::runtime_error {
 void require_display();
 
 // Shows the window and returns 0 when the user has closed it. Must be called on the main thread, one at a
-// time. Sleeps while nothing happens. Throws NoDisplay, std::invalid_argument (pictures of unequal size) or
-// UsageError (pictures too large for OpenGL).
-int run_window(const PicturePair& comparison);
+// time. Sleeps while nothing happens. Throws NoDisplay or UsageError (pictures too large for OpenGL).
+int run_window(WindowState state, const SceneOpener& open);
 
 }  // namespace sidelight

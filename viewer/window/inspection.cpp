@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/window/inspection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace sidelight {
+namespace {
+
+const ExplainedSample& middle_sample(const Inspection& inspection) {
+  const int n = inspection.camera.n;
+  return inspection.samples[static_cast<std::size_t>((n / 2) * n + n / 2)];
+}
+
+glm::dvec3 to_light(const Light& light, const glm::dvec3& point) {
+  return light.directional ? -light.direction : glm::normalize(light.position - point);
+}
+
+SegmentKind kind_of(RayKind kind) {
+  switch (kind) {
+    case RayKind::refracted:
+      return SegmentKind::refracted;
+    case RayKind::straight:
+      return SegmentKind::straight;
+    default:
+      return SegmentKind::mirrored;
+  }
+}
+
+void add_segments(const Scene& scene, const RayRecord& ray, double far, std::vector<RaySegment>& out) {
+  if (!ray.sent) return;
+  const glm::dvec3 end =
+      ray.background ? ray.origin + far * glm::normalize(ray.direction) : ray.local.surface.point;
+  if (ray.kind != RayKind::eye) out.push_back({ray.origin, end, kind_of(ray.kind)});
+  if (ray.background) return;
+  for (const LightRecord& record : ray.local.lights) {
+    const Light& light = scene.lights[record.light];
+    const glm::dvec3 lamp = light.directional ? end - far * light.direction : light.position;
+    out.push_back({end, lamp, record.seen ? SegmentKind::light_seen : SegmentKind::light_blocked});
+  }
+  for (const RayRecord& child : ray.children) add_segments(scene, child, far, out);
+}
+
+double angle(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+}
+
+}  // namespace
+
+std::vector<RaySegment> ray_segments(const Inspection& inspection) {
+  std::vector<RaySegment> out;
+  const RayRecord& root = middle_sample(inspection).raytrace;
+  const double reach = root.background ? 1 : glm::distance(root.origin, root.local.surface.point);
+  add_segments(*inspection.scene, root, 3 * reach, out);
+  return out;
+}
+
+std::optional<Lobe> specular_lobe(const Inspection& inspection) {
+  const RayRecord& root = middle_sample(inspection).raytrace;
+  if (root.background || root.local.lights.empty()) return {};
+  const auto strength = [](const LightRecord& light) {
+    return light.specular.x + light.specular.y + light.specular.z;
+  };
+  const LightRecord& brightest = *std::max_element(
+      root.local.lights.begin(), root.local.lights.end(),
+      [&](const LightRecord& a, const LightRecord& b) { return strength(a) < strength(b); });
+  const Surface& surface = root.local.surface;
+  const glm::dvec3 normal = surface.normal, viewer = -glm::normalize(root.direction);
+  const glm::dvec3 light = to_light(inspection.scene->lights[brightest.light], surface.point);
+  const glm::dvec3 mirrored = 2 * glm::dot(normal, light) * normal - light;
+  return Lobe{
+      brightest.light,         inspection.scene->materials[surface.material].shininess, angle(normal, light),
+      angle(mirrored, viewer), glm::dot(viewer, normal) > glm::dot(mirrored, normal),   brightest.highlight};
+}
+
+std::optional<Inspection> inspect_pixel(const WindowState& state) {
+  if (!state.inspected) return {};
+  const PictureTask task = picture_task(state);
+  Inspection out;
+  out.pixel = *state.inspected;
+  out.scene = task.scene;
+  out.camera = task.made_camera();
+  const auto rasterizer = raster::prepare(*task.scene, task.options.threads);
+  const auto tracer = raytrace::prepare(*task.scene, task.options.threads);
+  for (int j = 0; j < task.n; ++j)
+    for (int i = 0; i < task.n; ++i) {
+      const int X = task.n * out.pixel.x + i, Y = task.n * out.pixel.y + j;
+      out.samples.push_back({i, j, raster::explain(*rasterizer, out.camera, X, Y),
+                             raytrace::explain(*tracer, out.camera, X, Y)});
+    }
+  return out;
+}
+
+std::string sum_words(const Inspection& inspection) {
+  return fmt::format("pixel {},{}: z-buffer {}, ray tracer {}", inspection.pixel.x, inspection.pixel.y,
+                     color_text(mean_color(inspection.samples, Side::raster)),
+                     color_text(mean_color(inspection.samples, Side::raytrace)));
+}
+
+}  // namespace sidelight

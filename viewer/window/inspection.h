@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Why the inspected pixel has its colour: the records that both renderers' own code tells (common/model/explanation.h),
+// as `sidelight explain` prints them. Told for the scene without faults on purpose: the records are of the exact answers.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/model/explanation.h"
+#include "viewer/report/explain_words.h"
+#include "viewer/window/state.h"
+
+namespace sidelight {
+
+struct Inspection {
+  glm::ivec2 pixel{0};
+  std::shared_ptr<const Scene> scene;
+  Camera camera;
+  std::vector<ExplainedSample> samples;  // all of the pixel's, row by row
+};
+
+// A ray of the pixel, to be drawn into the pictures: from a surface to what it met, or to its light.
+enum class SegmentKind { mirrored, refracted, straight, light_seen, light_blocked };
+struct RaySegment {
+  glm::dvec3 from{0}, to{0};
+  SegmentKind kind{};
+};
+// Of the tree under sample (n/2, n/2); the eye ray is a point in this picture and left out. A ray that meets nothing, or
+// goes to a light infinitely far, ends a few times the eye's distance away.
+std::vector<RaySegment> ray_segments(const Inspection& inspection);
+
+// The specular lobe of the first surface under one light, in the plane of the lecture's plot: angles in radians.
+struct Lobe {
+  std::size_t light = 0;
+  double shininess = 1;
+  double light_angle = 0;       // between N and L, and so between N and Rl
+  double view_angle = 0;        // between Rl and V
+  bool towards_normal = false;  // V lies on the normal's side of Rl
+  double value = 0;             // max(0, cos view_angle)^s, as the renderers have it
+};
+// Of the light that shines on the pixel most by its specular term; nothing on the background or in the dark.
+std::optional<Lobe> specular_lobe(const Inspection& inspection);
+
+// The account of the pixel, in words: R, then the terms that make it the tracer's.
+std::string sum_words(const Inspection& inspection);
+
+// Nothing if no pixel is inspected. Prepares both renderers anew: about a build of each.
+std::optional<Inspection> inspect_pixel(const WindowState& state);
+
+}  // namespace sidelight

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The inspector's panel: left the fragments that competed for the pixel, right the tree of rays, in the words of
+// `explain`; between them the specular lobe with the angle at which it is seen.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "viewer/window/canvas.h"
+#include "viewer/window/paint.h"
+#include "viewer/window/window_panels.h"
+
+namespace sidelight {
+namespace {
+
+constexpr double kQuarter = 1.57079632679489661923;
+
+void text(const std::string& words) { ImGui::TextUnformatted(words.data(), words.data() + words.size()); }
+
+// A column of text that scrolls on its own, under a coloured heading.
+void column(const Canvas& canvas, const char* name, float width, ImU32 accent, const std::string& heading,
+            const std::string& words) {
+  ImGui::BeginChild(name, ImVec2(width, 0), false, ImGuiWindowFlags_HorizontalScrollbar);
+  ImGui::PushFont(canvas.fonts().caption);
+  ImGui::PushStyleColor(ImGuiCol_Text, accent);
+  text(heading);
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  text(words);
+  ImGui::EndChild();
+}
+
+// Where an angle from the normal, positive to the right, points to in the plot.
+glm::dvec2 towards(double angle) { return {std::sin(angle), -std::cos(angle)}; }
+
+void draw_arrow(ImDrawList& list, const ImFont& font, glm::dvec2 foot, glm::dvec2 way, ImU32 color,
+                float width, const char* label) {
+  const double size = static_cast<double>(font.FontSize);
+  list.AddLine(point(foot), point(foot + way), color, width);
+  list.AddCircleFilled(point(foot + way), 1.6f * width, color);
+  const glm::dvec2 at = foot + way * (1 + 0.6 * size / std::max(1.0, std::hypot(way.x, way.y)));
+  list.AddText(&font, font.FontSize, point(at - glm::dvec2(0.35, 0.5) * size), color, label);
+}
+
+// The lecture's plot: surface, N, L, Rl and V, and cos^s about Rl as a curve, with the ray to the viewer marked where
+// it meets it.
+void draw_lobe(const Canvas& canvas, const Lobe& lobe, const Rect& box) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const double s = canvas.scale(), line = 1.3 * kSmallText * s;
+  const double reach = std::min(box.width() * 0.42, box.height() - 3.6 * line);
+  if (reach < 20 * s) return;
+  const glm::dvec2 foot((box.x0 + box.x1) / 2.0, box.y1 - 2.4 * line);
+  const ImFont& font = *canvas.fonts().small;
+  const auto width = static_cast<float>(2 * s);
+  list.AddLine(point(foot - glm::dvec2(reach * 1.1, 0)), point(foot + glm::dvec2(reach * 1.1, 0)), kFrame,
+               width);
+
+  const double mirrored = lobe.light_angle;
+  const double viewer = mirrored + (lobe.towards_normal ? -lobe.view_angle : lobe.view_angle);
+  const auto radius = [&](double from_mirrored) {
+    return std::pow(std::max(0.0, std::cos(from_mirrored)), lobe.shininess);
+  };
+  constexpr int kPieces = 240;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double angle = (2.0 * i / kPieces - 1) * kQuarter;
+    list.PathLineTo(point(foot + reach * radius(angle) * towards(mirrored + angle)));
+  }
+  list.PathStroke(kLeftAccent, 0, width);
+  draw_arrow(list, font, foot, reach * towards(0), kQuiet, width, "N");
+  draw_arrow(list, font, foot, 0.9 * reach * towards(-mirrored), kText, width, "L");
+  draw_arrow(list, font, foot, reach * towards(mirrored), kLeftAccent, width, "R");
+  draw_arrow(list, font, foot, 0.9 * reach * towards(viewer), kRightAccent, width, "V");
+  list.AddCircleFilled(point(foot + reach * radius(lobe.view_angle) * towards(viewer)), 2.5f * width,
+                       kRightAccent);
+  const std::string words = fmt::format("light {}: cos({:.1f}\u00B0)^{:g} = {:.4g}", lobe.light + 1,
+                                        lobe.view_angle * 90 / kQuarter, lobe.shininess, lobe.value);
+  list.AddText(&font, font.FontSize, point(box.x0, box.y1 - 1.5 * line), kText, words.c_str());
+}
+
+std::string sample_heading(const Inspection& inspection, const ExplainedSample& sample) {
+  return inspection.samples.size() > 1 ? fmt::format("sample {},{}\n", sample.i, sample.j) : std::string();
+}
+
+}  // namespace
+
+void draw_inspector(const Canvas& canvas, const WindowContents& contents, const Rect& box,
+                    std::vector<Command>& out) {
+  const DockWindow window("##inspector", box);
+  if (!contents.inspection) return text("looking ...");
+  const Inspection& inspection = *contents.inspection;
+  std::string left, right;
+  for (const ExplainedSample& sample : inspection.samples) {
+    left += sample_heading(inspection, sample) + raster_words(*inspection.scene, sample.raster, 0);
+    right += sample_heading(inspection, sample) + ray_words(*inspection.scene, sample.raytrace, 0);
+  }
+  const std::string pixel = fmt::format("pixel {},{}  ", inspection.pixel.x, inspection.pixel.y);
+  const float whole = ImGui::GetContentRegionAvail().x, gap = ImGui::GetStyle().ItemSpacing.x;
+  const std::optional<Lobe> lobe = specular_lobe(inspection);
+  const float copy = ImGui::CalcTextSize("y copy as command").x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float plot = std::max(copy, static_cast<float>(std::min(260 * canvas.scale(), box.width() / 4.0)));
+  const float side = (whole - plot) / 2 - gap;
+  const ImVec2 top = ImGui::GetCursorScreenPos();
+  column(canvas, "##fragments", side, kLeftAccent,
+         pixel + "z-buffer " + color_text(mean_color(inspection.samples, Side::raster)), left);
+  if (lobe) {
+    const int x = static_cast<int>(top.x + side + gap);
+    draw_lobe(canvas, *lobe,
+              {x, static_cast<int>(top.y + 2 * ImGui::GetFontSize()), x + static_cast<int>(plot), box.y1});
+  }
+  ImGui::SetCursorScreenPos({top.x + side + gap, top.y});
+  if (ImGui::Button("y copy as command"))
+    out.push_back([](Session& session) { session.act(Action::copy_command, {}); });
+  ImGui::SetCursorScreenPos({top.x + side + 2 * gap + plot, top.y});
+  column(canvas, "##rays", side - gap, kRightAccent,
+         "ray tracer " + color_text(mean_color(inspection.samples, Side::raytrace)), right);
+}
+
+}  // namespace sidelight
