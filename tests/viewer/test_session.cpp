@@ -4,14 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
-#include <cmath>
 #include <cstring>
-#include <glm/geometric.hpp>
 #include <thread>
 
 #include "common/scene/toml.h"
 #include "tests/viewer/program.h"
-#include "viewer/window/camera_moves.h"
 #include "viewer/window/session.h"
 
 using namespace sidelight;
@@ -294,34 +291,4 @@ TEST_CASE("session: Escape closes what is open, the window last") {
   CHECK_FALSE(session.closed());
   session.press("Esc", kPanel);
   CHECK(session.closed());
-}
-
-TEST_CASE("camera moves: distances stay, poles are not passed, points project onto their own rays") {
-  CameraSettings camera;
-  camera.eye = {1, 2, 7};
-  camera.look_at = {0, 0.5, -1};
-  const double distance = glm::distance(camera.eye, camera.look_at);
-  CameraSettings moved = camera;
-  for (int i = 0; i < 500; ++i) moved = orbit(moved, 0.05, 0.03);
-  CHECK(glm::distance(moved.eye, moved.look_at) == doctest::Approx(distance));
-  CHECK(moved.eye.y - moved.look_at.y < distance);
-  CHECK(moved.eye.y - moved.look_at.y > 0.99 * distance);
-  const CameraSettings back = orbit(orbit(camera, 0.3, 0), -0.3, 0);
-  CHECK(glm::distance(back.eye, camera.eye) < 1e-12 * distance);
-  CHECK(orbit(camera, 0.1, 0).eye.x > camera.eye.x);  // to the right
-  CHECK(orbit(camera, 0, 0.1).eye.y > camera.eye.y);
-  CHECK(slide(camera, {0, 0.5}).look_at.y > camera.look_at.y);
-
-  CameraSettings near = camera;
-  for (int i = 0; i < 2000; ++i) near = dolly(near, 0.9);
-  CHECK(near.eye != near.look_at);
-  for (int i = 0; i < 2000; ++i) near = dolly(near, 1.5);
-  CHECK(glm::length(near.eye) < 1e15);
-
-  const Camera made = make_camera(camera, 64, 48, 1);
-  for (const glm::ivec2& pixel : {glm::ivec2(0, 0), {63, 47}, {20, 31}}) {
-    const glm::dvec2 at = project(made, made.eye + 0.01 * made.direction(pixel.x, pixel.y));
-    CHECK(at.x == doctest::Approx(pixel.x + 0.5));
-    CHECK(at.y == doctest::Approx(pixel.y + 0.5));
-  }
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/window/inspection.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -92,12 +90,6 @@ std::optional<Inspection> inspect_pixel(const WindowState& state) {
                              raytrace::explain(*tracer, out.camera, X, Y)});
     }
   return out;
-}
-
-std::string sum_words(const Inspection& inspection) {
-  return fmt::format("pixel {},{}: z-buffer {}, ray tracer {}", inspection.pixel.x, inspection.pixel.y,
-                     color_text(mean_color(inspection.samples, Side::raster)),
-                     color_text(mean_color(inspection.samples, Side::raytrace)));
 }
 
 }  // namespace sidelight

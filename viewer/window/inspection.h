@@ -44,9 +44,6 @@ struct Lobe {
 // Of the light that shines on the pixel most by its specular term; nothing on the background or in the dark.
 std::optional<Lobe> specular_lobe(const Inspection& inspection);
 
-// The account of the pixel, in words: R, then the terms that make it the tracer's.
-std::string sum_words(const Inspection& inspection);
-
 // Nothing if no pixel is inspected. Prepares both renderers anew: about a build of each.
 std::optional<Inspection> inspect_pixel(const WindowState& state);
 

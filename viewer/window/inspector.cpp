@@ -65,6 +65,7 @@ void draw_lobe(const Canvas& canvas, const Lobe& lobe, const Rect& box) {
   constexpr int kPieces = 240;
   for (int i = 0; i <= kPieces; ++i) {
     const double angle = (2.0 * i / kPieces - 1) * kQuarter;
+    if (std::abs(mirrored + angle) > kQuarter) continue;  // under the surface
     list.PathLineTo(point(foot + reach * radius(angle) * towards(mirrored + angle)));
   }
   list.PathStroke(kLeftAccent, 0, width);

@@ -83,7 +83,7 @@ constexpr auto kLooking = std::to_array<KeyHelp>({
 });
 constexpr auto kMoving = std::to_array<KeyHelp>({
     {"drag, arrows", "orbit"},
-    {"Shift drag, Shift arrows", "slide"},
+    {"with Shift", "slide"},
     {"Ctrl wheel . ,", "nearer, farther"},
     {"d D", "longer, shorter paths"},
     {"f g r", "shadows, reflection, refraction"},

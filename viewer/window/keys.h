@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the keys do: the one table, from which the window acts and the help overlay is drawn. A key is named by the character it types, or by its name: "Space", "PageDown", "Shift+Left".
+// What the keys do: the one table, from which the window acts and the help overlay is drawn. A key is named by the
+// character it types, or by its name: "Space", "PageDown", "Shift+Left".
 #pragma once
 
 #include <optional>

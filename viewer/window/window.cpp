@@ -4,9 +4,6 @@
 #include "common/error.h"
 
 #ifdef SIDELIGHT_HAVE_GLFW
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -15,6 +12,7 @@
 #include <utility>
 
 #include "viewer/window/canvas.h"
+#include "viewer/window/glfw_window.h"
 #include "viewer/window/window_panels.h"
 #endif
 
@@ -27,74 +25,6 @@ NoDisplay::NoDisplay(const std::string& reason)
 
 #ifdef SIDELIGHT_HAVE_GLFW
 namespace {
-
-std::string last_glfw_error(const std::string& otherwise) {
-  const char* text = nullptr;
-  glfwGetError(&text);
-  return text != nullptr ? text : otherwise;
-}
-
-struct GlfwLibrary {
-  GlfwLibrary() {
-    if (glfwInit() == GLFW_FALSE) throw NoDisplay(last_glfw_error("GLFW does not start"));
-  }
-  ~GlfwLibrary() { glfwTerminate(); }
-  GlfwLibrary(const GlfwLibrary&) = delete;
-  GlfwLibrary& operator=(const GlfwLibrary&) = delete;
-};
-
-struct DestroyWindow {
-  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
-};
-using WindowHandle = std::unique_ptr<GLFWwindow, DestroyWindow>;
-
-// Not shown yet; its OpenGL context is current.
-WindowHandle make_window(const std::string& title) {
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-  const std::string caption = title.empty() ? "sidelight" : "sidelight: " + printable(title);
-  WindowHandle window(glfwCreateWindow(640, 480, caption.c_str(), nullptr, nullptr));
-  if (!window) throw NoDisplay(last_glfw_error("no OpenGL 3.3 core context"));
-  glfwMakeContextCurrent(window.get());
-  glfwSwapInterval(1);
-  return window;
-}
-
-// What keys are called (keys.h), where they do not type a character. GLFW names keys by their place on an American
-// keyboard, so letters and digits come as characters.
-std::string key_name(int key, int modifiers) {
-  const std::string shift = modifiers & GLFW_MOD_SHIFT ? "Shift+" : "";
-  switch (key) {
-    case GLFW_KEY_ESCAPE:
-      return "Esc";
-    case GLFW_KEY_HOME:
-      return "Home";
-    case GLFW_KEY_PAGE_UP:
-      return "PageUp";
-    case GLFW_KEY_PAGE_DOWN:
-      return "PageDown";
-    case GLFW_KEY_F1:
-      return "F1";
-    case GLFW_KEY_LEFT:
-      return shift + "Left";
-    case GLFW_KEY_RIGHT:
-      return shift + "Right";
-    case GLFW_KEY_UP:
-      return shift + "Up";
-    case GLFW_KEY_DOWN:
-      return shift + "Down";
-    default:
-      return {};
-  }
-}
-
-std::string character_name(unsigned character) {
-  if (character == ' ') return "Space";
-  return character < 0x80 ? std::string(1, static_cast<char>(character)) : std::string();
-}
 
 // An open window: its events become the session's, the session's state becomes its picture.
 class SessionWindow {

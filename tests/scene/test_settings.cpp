@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// A changed scene as settings, and as a file again: what is read back is the same in every bit.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/scene/settings.h"
+#include "common/scene/toml.h"
+
+using namespace sidelight;
+
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// Everything that settings can say, changed to numbers that need all their digits.
+Scene changed(Scene scene) {
+  const double odd = 1.0 / 3;
+  scene.background = {odd, 0.25, 0};
+  scene.ambient = {0.1, odd, 0.2};
+  scene.width += 3;
+  scene.camera.eye += glm::dvec3(odd, -odd / 7, 1e-9);
+  scene.camera.up = {0.1, 1, 0};
+  scene.trace.depth += 2;
+  scene.trace.contribution_cut = odd / 100;
+  scene.trace.secondary_attenuation = {1, odd, 0.01};
+  scene.trace.shadows = !scene.trace.shadows;
+  scene.trace.refraction = !scene.trace.refraction;
+  for (Light& light : scene.lights) {
+    light.intensity *= 1 + odd;
+    if (!light.directional) light.position.y += odd;
+  }
+  for (Material& material : scene.materials) {
+    material.diffuse = {odd, odd * odd, 1e-17};
+    material.shininess = 10 * odd;
+    material.reflect = glm::dvec3(odd);
+    material.ior = 1 + odd;
+    material.casts_shadow = !material.casts_shadow;
+  }
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("settings: every shipped scene, changed all over, is the same when its new text is read") {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SIDELIGHT_SOURCE_DIR "/scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    CAPTURE(entry.path().string());
+    ++scenes;
+    const std::string path = entry.path().string();
+    const Scene before = load_scene(path);
+    CHECK(settings_between(before, before).empty());
+    const Scene wanted = changed(before);
+    const Settings settings = settings_between(before, wanted);
+    const Scene by_text = parse_scene(with_settings(text_of(path), settings, path), path);
+    CHECK(settings_between(by_text, wanted).empty());
+    CHECK(settings_between(load_scene_with(path, settings), wanted).empty());
+    // All else is where it was.
+    CHECK(by_text.primitive_object == before.primitive_object);
+    CHECK(by_text.lesson == before.lesson);
+    CHECK(by_text.steps.size() == before.steps.size());
+  }
+  CHECK(scenes >= 14);
+}
+
+TEST_CASE("settings: comments stay, new keys go where their table is, also inline and where there is none") {
+  const std::string text =
+      "camera = { eye = [0, 0, 5], look_at = [0, 0, 0], view_height = 1 }  # η \u2264 1\n"
+      "material = { 'a.b' = {}, c = { diffuse = 0.5 } }   # two\n"
+      "[[light]]   # key\n"
+      "position = [1, 2, 3]\n"
+      "intensity = [1,\n  1,   # green\n  1]\n"
+      "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'c'\n";
+  const Scene before = parse_scene(text, "s.toml");
+  const Scene wanted = changed(before);
+  const std::string out = with_settings(text, settings_between(before, wanted), "s.toml");
+  CAPTURE(out);
+  CHECK(settings_between(parse_scene(out, "s.toml"), wanted).empty());
+  for (const char* comment : {"# η \u2264 1\n", "# two\n", "[[light]]   # key\n"})
+    CHECK(out.find(comment) != std::string::npos);
+  CHECK(out.find("[trace]\n") != std::string::npos);
+}
+
+TEST_CASE("settings: a path that leads nowhere is an error, and so is a table without a place for its keys") {
+  CHECK_THROWS_AS(with_settings("", {{"light.3.intensity", "1"}}, "s.toml"), InputError);
+  CHECK_THROWS_AS(with_settings("", {{"a..b", "1"}}, "s.toml"), InputError);
+  CHECK_THROWS_AS(with_settings("trace.depth = 3\n", {{"trace.shadows", "true"}}, "s.toml"), InputError);
+  CHECK(with_settings("trace.depth = 3\n", {{"trace.depth", "4"}}, "s.toml") == "trace.depth = 4\n");
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// What leaves the window: scene files that load to what was shown, commands that tell what the inspector tells.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "common/scene/toml.h"
+#include "tests/viewer/program.h"
+#include "viewer/window/inspection.h"
+#include "viewer/window/session.h"
+
+using namespace sidelight;
+using namespace sidelight::testing;
+
+namespace {
+
+constexpr Rect kPanel{24, 90, 24 + 320, 90 + 240};
+
+OpenedScene open_plain(const std::string& file, const Settings& set) {
+  OpenedScene opened;
+  opened.scene = load_scene_with(file, set);
+  opened.options.threads = 1;
+  return opened;
+}
+
+const std::string kStep =
+    "[picture]\nsize = [64, 48]\n"
+    "[[step]]\ntext = 'Larger.'\neye = [0, 2, 7]\nset = { 'sphere.0.radius' = 1.25 }\n";
+
+// The scene shown in every bit, by what is drawn of it.
+bool same_picture(const WindowState& state, const Scene& scene) {
+  PictureTask other = picture_task(state);
+  other.scene = std::make_shared<const Scene>(scene);
+  other.camera = scene.camera;
+  const auto a = render_pictures(picture_task(state)).traced, b = render_pictures(other).traced;
+  return a->color.size() == b->color.size() &&
+         std::memcmp(a->color.data(), b->color.data(), a->color.size() * sizeof a->color[0]) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("save: the new file loads to what was shown, and no file is overwritten") {
+  const Workplace here;
+  write_bytes(here / "scene.toml", kGoodScene + kStep);
+  write_bytes(here / "scene-2.toml", "mine");
+  Session session(open_state(here / "scene.toml", open_plain), open_plain);
+  for (const char* key : {"n", "n", "Left", "Shift+Up", ".", "D", "g"}) session.press(key, kPanel);
+  session.edit([](Scene& scene) {
+    scene.lights[0].intensity = {0.1, 1.0 / 3, 0.7};
+    scene.materials[0].shininess = 7.25;
+  });
+  session.press("s", kPanel);
+  CAPTURE(session.state().notice.text);
+  CHECK_FALSE(session.state().notice.error);
+  CHECK(read_bytes(here / "scene-2.toml") == "mine");
+  const Scene saved = load_scene(here / "scene-3.toml");
+  CHECK(saved.spheres[0].radius == 1.25);  // the step's
+  CHECK(saved.camera.eye == session.state().camera.eye);
+  CHECK(same_picture(session.state(), saved));
+}
+
+TEST_CASE("copy as command: explain then prints the inspector's words") {
+  const Workplace here;
+  write_bytes(here / "scene.toml", kGoodScene + kStep);
+  Session session(open_state(here / "scene.toml", open_plain), open_plain);
+  session.press("y", kPanel);
+  CHECK(session.take_clipboard() == "");  // nothing inspected
+  session.inspect({40, 26});
+  session.press("Left", kPanel);
+  session.press("D", kPanel);
+  session.press("y", kPanel);
+  const std::string command = session.take_clipboard();
+  CHECK(session.take_clipboard() == "");
+  REQUIRE(command.rfind("sidelight explain ", 0) == 0);
+
+  const Outcome outcome = here.run_in_shell("eval \"$0 ${1#sidelight }\"", {command});
+  CAPTURE(command);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const Inspection inspection = *inspect_pixel(session.state());
+  REQUIRE(inspection.samples.size() == 1);
+  CHECK(outcome.out.find(raster_words(*inspection.scene, inspection.samples[0].raster, 1)) !=
+        std::string::npos);
+  CHECK(outcome.out.find(ray_words(*inspection.scene, inspection.samples[0].raytrace, 1)) !=
+        std::string::npos);
+}
+
+TEST_CASE("inspection: rays start where the eye's ends, and the lobe's value is the model's") {
+  const Workplace here;
+  write_bytes(here / "scene.toml", kGoodScene + kStep);
+  WindowState state = open_state(here / "scene.toml", open_plain);
+  CHECK_FALSE(inspect_pixel(state).has_value());
+  int lobes = 0;
+  for (int x = 4; x < 64; x += 6) {
+    state.inspected = {x, 26};
+    const Inspection inspection = *inspect_pixel(state);
+    const RayRecord& root = inspection.samples[0].raytrace;
+    for (const RaySegment& segment : ray_segments(inspection)) {
+      CHECK(segment.from != segment.to);
+      if (segment.kind == SegmentKind::light_seen || segment.kind == SegmentKind::light_blocked)
+        CHECK(segment.to == state.scene->lights[0].position);
+    }
+    if (root.background) CHECK(ray_segments(inspection).empty());
+    if (const auto lobe = specular_lobe(inspection)) {
+      ++lobes;
+      // The float kernel's value against the angle's in double: a few roundings of a number near 1, s = 1 here.
+      CHECK(std::max(0.0, std::cos(lobe->view_angle)) == doctest::Approx(lobe->value).epsilon(1e-5));
+    }
+  }
+  CHECK(lobes > 3);
+}
