@@ -14,6 +14,7 @@
 #include "viewer/commands/progress.h"
 #include "viewer/report/bench_report.h"
 #include "viewer/report/bench_table.h"
+#include "viewer/report/shell_word.h"
 
 namespace sidelight {
 namespace {

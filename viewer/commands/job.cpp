@@ -186,14 +186,6 @@ Metadata job_metadata(const Job& job, const std::string& renderer) {
   return metadata;
 }
 
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 std::string command_line(const Job& job, std::string_view verb) {
   const JobFlags& flags = job.flags;
   std::string line = fmt::format("sidelight {} {}", verb, shell_word(flags.scene));

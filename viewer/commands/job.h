@@ -70,7 +70,5 @@ Metadata job_metadata(const Job& job, const std::string& renderer);
 // What to type into a shell to run `verb` on the scene as this job renders it: "sidelight explain scene.toml --spp 4".
 // The crop is left out, since pixels count from the whole picture's corner.
 std::string command_line(const Job& job, std::string_view verb);
-// The text as one word of a POSIX shell.
-std::string shell_word(const std::string& text);
 
 }  // namespace sidelight
