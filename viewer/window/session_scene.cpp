@@ -155,7 +155,7 @@ bool Session::watch() {
     if (state_.step >= steps) state_.step = -1, state_.revealed = false;
     state_.mode = before.mode;
     state_.ledger_term = before.ledger_term;
-    if (is_edited(before)) state_.camera = before.camera;
+    if (camera_moved(before)) state_.camera = before.camera;
     if (state_.inspected && !inside(*state_.scene, *state_.inspected)) state_.inspected.reset();
     state_.notice = {};
   });

@@ -27,7 +27,7 @@ std::string window_title(const WindowState& state) {
   return state.faults.any() ? fmt::format("FAULTS ON PURPOSE ({}): {}", state.faults.text(), title) : title;
 }
 
-bool is_edited(const WindowState& state) {
+bool camera_moved(const WindowState& state) {
   const CameraSettings &now = state.camera, &then = state.scene->camera;
   return now.eye != then.eye || now.look_at != then.look_at;
 }

@@ -75,7 +75,7 @@ inline glm::ivec2 picture_size(const WindowState& state) {
 // "scene, with FAULTS ON PURPOSE": what every picture of it must say.
 std::string window_title(const WindowState& state);
 
-// Whether anything differs from what was opened.
-bool is_edited(const WindowState& state);
+// Whether the camera is elsewhere than the scene has it.
+bool camera_moved(const WindowState& state);
 
 }  // namespace sidelight

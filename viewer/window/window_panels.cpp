@@ -140,7 +140,7 @@ WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double sca
     return box;
   };
   // A step is a line or two, a lesson a paragraph.
-  if (state.lesson) out.lesson = take(std::min(pixels(state.step >= 0 ? 130 : 190), size.y * 2 / 5));
+  if (state.lesson) out.lesson = take(std::min(pixels(state.step >= 0 ? 104 : 190), size.y * 2 / 5));
   if (state.inspected) out.inspector = take(std::max(pixels(120), size.y * 2 / 5));
   if (state.slow) out.slow = take(pixels(2.6 * kSmallText));
 
