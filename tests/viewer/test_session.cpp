@@ -117,8 +117,8 @@ TEST_CASE("session: a storm of input ends in the last one's pictures, and leavin
 TEST_CASE("worker: blocks become finer, and a new task cuts them short") {
   const Open open;
   OpenedScene opened = open_small(open.file, {});
-  opened.scene.width = 640;
-  opened.scene.height = 480;
+  opened.scene.width = 160;
+  opened.scene.height = 120;
   PictureTask task;
   task.scene = std::make_shared<const Scene>(opened.scene);
   task.camera = task.scene->camera;
@@ -139,13 +139,13 @@ TEST_CASE("worker: blocks become finer, and a new task cuts them short") {
   {
     const std::lock_guard lock(mutex);
     CHECK(blocks == std::vector<int>{0, 16, 8, 4, 2, 1, 1});
-    CHECK(worker.latest().traced->width() == 640);
+    CHECK(worker.latest().traced->width() == 160);
     blocks.clear();
   }
   // 64 samples a pixel take a while; the next task does not wait for them.
   task.n = 8;
   worker.submit(task);
-  while (worker.latest().task.n != 8 || worker.latest().block == 0) std::this_thread::yield();
+  while (worker.latest().task.n != 8 || worker.latest().block == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const Pictures complete = worker.last_finished();
   CHECK(complete.task.n == 2);  // what modes that compare go on showing
   task.n = 1;
