@@ -27,8 +27,8 @@ Place locate(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& cou
 // ---- Rays that leave ----
 //
 // A ray that leaves starts at point + clearance * Nv, beyond its own surface's rounding. Where two walls meet, that may
-// still lie in the other wall's plane, which is then not met, or behind it, and the ray is out of the room. So: it starts
-// on the side of every near surface on which the arriving ray travelled, moved there by a few clearances.
+// still lie in the other wall's plane, which is then not met, or behind it, and the ray is out of the room. So: it
+// starts on the side of every near surface on which the arriving ray travelled, moved there by a few clearances.
 
 // How far from the point, along each axis, a near triangle or sphere may be that has no coordinate above `reach`.
 double nearness(const Ray& ray, const Hit& hit, const Place& place, double reach);
