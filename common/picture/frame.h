@@ -21,18 +21,28 @@ namespace sidelight {
 
 // What a renderer can deliver beside the colour. The first six are RGB layers of the ledger (compare.h).
 enum class Layer {
-  ambient, diffuse, specular, shadow, reflection, refraction, depth, object, primitive, normal, cost
+  ambient,
+  diffuse,
+  specular,
+  shadow,
+  reflection,
+  refraction,
+  depth,
+  object,
+  primitive,
+  normal,
+  cost
 };
 inline constexpr int kRgbLayers = 6;
 inline constexpr int kLayers = 11;
 inline constexpr std::array<std::string_view, kLayers> kLayerNames{
-    "ambient",    "diffuse", "specular", "shadow",    "reflection",
-    "refraction", "depth",   "object",   "primitive", "normal", "cost"};
+    "ambient", "diffuse", "specular",  "shadow", "reflection", "refraction",
+    "depth",   "object",  "primitive", "normal", "cost"};
 
 using LayerMask = unsigned;
 constexpr LayerMask layer_bit(Layer layer) { return 1u << static_cast<unsigned>(layer); }
-inline constexpr LayerMask kVisibilityLayers =
-    layer_bit(Layer::depth) | layer_bit(Layer::object) | layer_bit(Layer::primitive) | layer_bit(Layer::normal);
+inline constexpr LayerMask kVisibilityLayers = layer_bit(Layer::depth) | layer_bit(Layer::object) |
+                                               layer_bit(Layer::primitive) | layer_bit(Layer::normal);
 // What render() and render_reference() of a renderer make alike; only render() makes `cost`.
 inline constexpr LayerMask kRasterLayers =
     kVisibilityLayers | layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
@@ -50,19 +60,20 @@ struct Rect {
 };
 
 struct RenderOptions {
-  int threads = 0;                     // 0: all cores
+  int threads = 0;  // 0: all cores
   Isa isa = best_isa();
-  int tile = 32;                       // edge of a tile in pixels; changes no bit of the picture
-  LayerMask layers = 0;                // which layers to fill
-  bool keep_samples = false;           // fill Frame::sample_primitive and sample_depth
-  Rect crop;                           // empty: the whole picture
-  Faults faults;                       // off; the references know none
-  std::atomic<bool>* cancel = nullptr;            // raised from outside: the renderer throws Interrupted soon after
-  std::function<void(double done)> progress;      // called now and then, from any thread, with done in [0, 1]
+  int tile = 32;                        // edge of a tile in pixels; changes no bit of the picture
+  LayerMask layers = 0;                 // which layers to fill
+  bool keep_samples = false;            // fill Frame::sample_primitive and sample_depth
+  Rect crop;                            // empty: the whole picture
+  Faults faults;                        // off; the references know none
+  std::atomic<bool>* cancel = nullptr;  // raised from outside: the renderer throws Interrupted soon after
+  std::function<void(double done)> progress;  // called now and then, from any thread, with done in [0, 1]
 };
 
 struct RayCounts {
   std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+  std::uint64_t total() const { return primary + shadow + reflection + refraction; }
 };
 
 // The work of visibility: edge and side signs by the level of exactness that decided them, and tests of a ray
@@ -71,32 +82,32 @@ struct RayCounts {
 struct SignCounts {
   std::uint64_t filtered = 0, in_double = 0, exact = 0;
   std::uint64_t tests = 0;
-  std::uint64_t fragments = 0;   // z-buffer only
-  std::uint64_t nodes = 0;       // ray tracer only
+  std::uint64_t fragments = 0;  // z-buffer only
+  std::uint64_t nodes = 0;      // ray tracer only
 };
 
 struct RenderStats {
   RayCounts rays;
   SignCounts signs;
-  std::uint64_t self_shadowed = 0;     // light terms dropped because the surface stands in its own light
-  double cut_weight = 0;               // mean over samples of the weights of all rays not sent
+  std::uint64_t self_shadowed = 0;  // light terms dropped because the surface stands in its own light
+  double cut_weight = 0;            // mean over samples of the weights of all rays not sent
 
   // Adds the counts; cut_weight is left to the caller, who must add in a fixed order.
   void add_counts(const RenderStats& other);
 };
 
 struct Frame {
-  int full_width = 0, full_height = 0;   // the whole picture
-  Rect window;                           // the part that is stored
-  int n = 1;                             // samples per pixel edge: n x n samples
+  int full_width = 0, full_height = 0;  // the whole picture
+  Rect window;                          // the part that is stored
+  int n = 1;                            // samples per pixel edge: n x n samples
 
   std::vector<glm::vec3> color;
-  std::array<std::vector<glm::vec3>, kRgbLayers> rgb;   // empty unless asked for; indexed by Layer
+  std::array<std::vector<glm::vec3>, kRgbLayers> rgb;  // empty unless asked for; indexed by Layer
   // Of sample (n/2, n/2) of each pixel; empty unless asked for.
-  std::vector<float> depth;                    // distance along the viewing direction; 0 on background
-  std::vector<std::uint32_t> object_id;        // 0: background, else 1 + the object's number
-  std::vector<std::uint32_t> primitive_id;     // likewise
-  std::vector<glm::vec3> normal;               // N, unit, world space; 0 on background
+  std::vector<float> depth;                 // distance along the viewing direction; 0 on background
+  std::vector<std::uint32_t> object_id;     // 0: background, else 1 + the object's number
+  std::vector<std::uint32_t> primitive_id;  // likewise
+  std::vector<glm::vec3> normal;            // N, unit, world space; 0 on background
   // SignCounts::tests made for the pixel, all its samples together; empty unless asked for. Whole numbers,
   // rounded to a float above 2^24.
   std::vector<float> cost;
@@ -108,8 +119,10 @@ struct Frame {
 
   int width() const { return window.width(); }
   int height() const { return window.height(); }
-  std::size_t pixels() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()); }
-  std::size_t index(int x, int y) const {   // picture coordinates, inside the window
+  std::size_t pixels() const {
+    return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+  }
+  std::size_t index(int x, int y) const {  // picture coordinates, inside the window
     return static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(width()) +
            static_cast<std::size_t>(x - window.x0);
   }

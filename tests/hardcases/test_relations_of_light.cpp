@@ -55,7 +55,7 @@ void add_hidden_objects(Scene& scene) {
 
 std::uint64_t work(const Scene& scene) {
   const RenderStats stats = traced(scene, relation_camera(scene)).stats;
-  return stats.rays.primary + stats.rays.shadow + stats.rays.reflection + stats.rays.refraction;
+  return stats.rays.total();
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ Image8 difference_picture(const std::vector<glm::vec3>& a, const std::vector<glm
 
 void add_counts(const Frame& frame, BenchPoint& point) {
   const RenderStats& stats = frame.stats;
-  point.rays = stats.rays.primary + stats.rays.shadow + stats.rays.reflection + stats.rays.refraction;
+  point.rays = stats.rays.total();
   point.fragments = stats.signs.fragments;
   point.tests = stats.signs.tests;
   if (point.rays == 0) return;

@@ -14,9 +14,7 @@ constexpr double kAffordableTests = 1e8;
 constexpr int kProbeWidth = 160;
 
 double rays_an_eye_ray(const RenderStats& stats) {
-  const RayCounts& rays = stats.rays;
-  return static_cast<double>(rays.primary + rays.shadow + rays.reflection + rays.refraction) /
-         static_cast<double>(rays.primary);
+  return static_cast<double>(stats.rays.total()) / static_cast<double>(stats.rays.primary);
 }
 
 double number(const std::string& text) {

@@ -2,21 +2,13 @@
 #include "viewer/window/progressive.h"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <utility>
 
+#include "common/clock.h"
+
 namespace sidelight {
 namespace {
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-std::uint64_t ray_count(const RayCounts& rays) {
-  return rays.primary + rays.shadow + rays.reflection + rays.refraction;
-}
 
 double per_second(std::uint64_t count, double ms) {
   return ms > 0 ? 1e3 * static_cast<double>(count) / ms : 0;
@@ -55,19 +47,19 @@ std::optional<Comparison> compare_pictures(const Pictures& pictures) {
 class BuiltScene {
  public:
   explicit BuiltScene(const PictureTask& task) : scene_(task.scene), objects_(task.objects) {
-    const double start = now_ms();
+    const double start = wall_ms();
     if (objects_ < scene_->objects.size()) part_ = first_objects(*scene_, objects_);
     rasterizer_ = raster::prepare(part_ ? *part_ : *scene_, task.options.threads);
-    raster_ms_ = now_ms() - start;
+    raster_ms_ = wall_ms() - start;
   }
   bool serves(const PictureTask& task) const { return scene_ == task.scene && objects_ == task.objects; }
 
   // After the z-buffer's picture, which need not wait for the tracer's hierarchy.
   const raytrace::Prepared& tracer(int threads) {
     if (!tracer_) {
-      const double start = now_ms();
+      const double start = wall_ms();
       tracer_ = raytrace::prepare(*scene_, threads);
-      tracer_ms_ = now_ms() - start;
+      tracer_ms_ = wall_ms() - start;
     }
     return *tracer_;
   }
@@ -80,10 +72,10 @@ class BuiltScene {
 
   void draw_raster(Pictures& out, std::atomic<bool>* cancel) const {
     const PictureTask& task = out.task;
-    const double start = now_ms();
+    const double start = wall_ms();
     out.rastered = std::make_shared<const Frame>(
         raster::render(*rasterizer_, task.made_camera(), options_for(task, kRasterLayers, cancel)));
-    const double ms = now_ms() - start;
+    const double ms = wall_ms() - start;
     const std::uint64_t samples = out.rastered->pixels() * static_cast<std::uint64_t>(task.n * task.n);
     out.left = {raster_ms_, ms, per_second(samples, ms)};
   }
@@ -94,11 +86,11 @@ class BuiltScene {
     const raytrace::Prepared& prepared = tracer(task.options.threads);
     const auto coarse = [block](int edge) { return (edge + block - 1) / block; };
     const Camera camera = make_camera(task.camera, coarse(scene_->width), coarse(scene_->height), n);
-    const double start = now_ms();
+    const double start = wall_ms();
     out.traced = std::make_shared<const Frame>(
         raytrace::render(prepared, camera, options_for(task, kRaytraceLayers, cancel)));
-    const double ms = now_ms() - start;
-    out.right = {tracer_ms_, ms, per_second(ray_count(out.traced->stats.rays), ms)};
+    const double ms = wall_ms() - start;
+    out.right = {tracer_ms_, ms, per_second(out.traced->stats.rays.total(), ms)};
     out.block = block;
     out.finished = block == 1 && n == task.n;
   }
