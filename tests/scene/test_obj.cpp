@@ -9,9 +9,11 @@
 
 #include "common/scene/nearest_name.h"
 #include "tests/scene/temp_folder.h"
+#include "tests/support/text.h"
 
 using namespace sidelight;
 using glm::dvec3;
+using test::contains;
 
 namespace {
 
@@ -50,10 +52,6 @@ std::vector<std::uint32_t> face_positions(const PolygonMesh& mesh, std::size_t f
   for (std::uint32_t k = 0; k < mesh.faces[face].count; ++k)
     numbers.push_back(mesh.corners[mesh.faces[face].first + k].position);
   return numbers;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 std::string repeated(const std::string& text, int times) {

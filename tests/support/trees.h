@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tracer's own tree of rays for one eye ray that a test chooses.
+// The tracer's own tree of rays for one eye ray that a test chooses, and a walk over it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,6 +17,14 @@ inline RayRecord tree_of(const raytrace::Prepared& prepared, const glm::dvec3& e
   settings.look_at = towards;
   settings.view_height = 0x1p-10;
   return raytrace::explain(prepared, make_camera(settings, 1, 1, 1), 0, 0);
+}
+
+// Calls visit(ray) for the rays of a tree that were sent.
+template <class Visit>
+void for_each_ray(const RayRecord& root, const Visit& visit) {
+  if (!root.sent) return;
+  visit(root);
+  for (const RayRecord& child : root.children) for_each_ray(child, visit);
 }
 
 }  // namespace sidelight::test

@@ -2,18 +2,16 @@
 // What a bench found out as text: the terminal's table and the CSV.
 #include "viewer/report/bench_table.h"
 
+#include "tests/support/text.h"
 #include "tests/viewer/bench_results.h"
 #include "tests/viewer/program.h"
 #include "viewer/report/bench_words.h"
 
 using namespace sidelight;
 using namespace sidelight::testing;
+using test::contains;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 // The first line that holds a text; empty if none does.
 std::string line_with(const std::string& text, const std::string& part) {

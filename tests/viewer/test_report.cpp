@@ -7,27 +7,20 @@
 
 #include "common/picture/image_io.h"
 #include "tests/tier.h"
+#include "tests/support/text.h"
 #include "tests/viewer/program.h"
 #include "viewer/report/highlights.h"
 #include "viewer/report/plot_svg.h"
 
 using namespace sidelight;
 using namespace sidelight::testing;
+using test::contains;
+using test::count;
 
 namespace {
 
 std::string base64_of(const std::string& text) {
   return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
-  return n;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 // The first text between two others.
