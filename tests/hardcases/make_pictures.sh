@@ -19,25 +19,7 @@ END
 
 root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)"
 out="$root/tests/hardcases/pictures"
-program=""
-names=()
-while (($#)); do
-  case $1 in
-    -h | --help) usage; exit 0 ;;
-    --program) program="$(realpath -- "${2:?--program needs a file}")"; shift ;;
-    -o) out="$(realpath -m -- "${2:?-o needs a folder}")"; shift ;;
-    -*) usage >&2; exit 2 ;;
-    *) names+=("$1") ;;
-  esac
-  shift
-done
-
-if [[ -z $program ]]; then
-  program="$root/build/release/viewer/sidelight"
-  [[ -x $program ]] || program="$root/build/demo/viewer/sidelight"
-  [[ -x $program ]] || { echo "no program yet: run viewer/demo.sh first" >&2; exit 1; }
-fi
-cd -- "$root"   # so that the pictures name their scene as scenes/hard/NAME.toml
+source "$root/scenes/picture_options.sh"
 if ((${#names[@]} == 0)); then
   for scene in scenes/hard/*.toml; do names+=("$(basename -- "$scene" .toml)"); done
 fi
