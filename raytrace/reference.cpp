@@ -24,12 +24,13 @@ using glm::dot;
 using glm::dvec3;
 using glm::normalize;
 
-using Solids = std::set<std::uint32_t>;   // the objects a ray is inside of
+using Solids = std::set<std::uint32_t>;  // the objects a ray is inside of
 
+// color = ambient + diffuse + specular - shadow + mirrored + refracted
 struct Light3 {
-  dvec3 color{0};                               // what the ray brings back
-  dvec3 ambient{0}, diffuse{0}, specular{0};    // of which, local and unshadowed
-  dvec3 shadow{0}, mirrored{0}, refracted{0};   // color = ambient + diffuse + specular - shadow + mirrored + refracted
+  dvec3 color{0};                             // what the ray brings back
+  dvec3 ambient{0}, diffuse{0}, specular{0};  // of which, local and unshadowed
+  dvec3 shadow{0}, mirrored{0}, refracted{0};
   Hit hit;
   dvec3 normal{0};
 };
@@ -45,15 +46,17 @@ class Tracer {
   dvec3 normal_at(const Hit& hit, const Place& place) const;
   dvec3 leaving_from(const Ray& ray, const Hit& hit, const Place& place);
   bool sees_light(const dvec3& from, const Light& light);
-  void add_local(const Place& place, const dvec3& from, const Material& material, const dvec3& N, const dvec3& V,
-                 Light3& out);
-  void add_secondary(const Ray& ray, const Place& place, const dvec3& from, const Material& material, const dvec3& N,
-                     const Solids& inside, int depth, double weight, Light3& out);
-  dvec3 follow(const Ray& ray, const Hit& start, const Solids& inside, const dvec3& c, int depth, double weight,
-               std::uint64_t& counter);
+  void add_local(const Place& place, const dvec3& from, const Material& material, const dvec3& N,
+                 const dvec3& V, Light3& out);
+  void add_secondary(const Ray& ray, const Place& place, const dvec3& from, const Material& material,
+                     const dvec3& N, const Solids& inside, int depth, double weight, Light3& out);
+  dvec3 follow(const Ray& ray, const Hit& start, const Solids& inside, const dvec3& c, int depth,
+               double weight, std::uint64_t& counter);
   Solids behind(const Ray& ray, const Hit& hit, const Place& place, const Solids& inside);
   double ior(const Solids& inside) const { return inside.empty() ? 1 : scene_.objects[*inside.rbegin()].ior; }
-  const Object& object_of(const Hit& hit) const { return scene_.objects[scene_.primitive_object[hit.primitive]]; }
+  const Object& object_of(const Hit& hit) const {
+    return scene_.objects[scene_.primitive_object[hit.primitive]];
+  }
 
   const Scene& scene_;
   RenderStats& stats_;
@@ -145,7 +148,8 @@ bool Tracer::sees_light(const dvec3& from, const Light& light) {
   for (std::uint32_t primitive = 0; primitive < scene_.primitive_object.size(); ++primitive) {
     if (!scene_.materials[primitive_material(scene_, primitive)].casts_shadow) continue;
     const Hit hit = intersect(scene_, primitive, ray, kRayStart, stats_.signs);
-    if (hit.found() && (light.directional || before_light(scene_, hit, ray, light.position, stats_.signs))) return false;
+    if (hit.found() && (light.directional || before_light(scene_, hit, ray, light.position, stats_.signs)))
+      return false;
   }
   return true;
 }
@@ -163,7 +167,7 @@ void Tracer::add_secondary(const Ray& ray, const Place& place, const dvec3& from
 
   if (c3 == dvec3(0)) {
     out.mirrored = follow(mirrored, kRayStart, inside, c2, depth, weight, stats_.rays.reflection);
-  } else if (!object_of(out.hit).solid) {   // a sheet without an inside: straight on
+  } else if (!object_of(out.hit).solid) {  // a sheet without an inside: straight on
     out.mirrored = follow(mirrored, kRayStart, inside, c2, depth, weight, stats_.rays.reflection);
     out.refracted = follow(ray, out.hit, inside, c3, depth, weight, stats_.rays.refraction);
   } else {
@@ -188,8 +192,8 @@ void Tracer::add_secondary(const Ray& ray, const Place& place, const dvec3& from
 }
 
 // c w(r) trace(ray)
-dvec3 Tracer::follow(const Ray& ray, const Hit& start, const Solids& inside, const dvec3& c, int depth, double weight,
-                     std::uint64_t& counter) {
+dvec3 Tracer::follow(const Ray& ray, const Hit& start, const Solids& inside, const dvec3& c, int depth,
+                     double weight, std::uint64_t& counter) {
   weight *= std::max({c.x, c.y, c.z});
   if (c == dvec3(0)) return dvec3(0);
   if (depth == scene_.trace.depth || weight < scene_.trace.contribution_cut) {
@@ -222,7 +226,8 @@ Solids Tracer::behind(const Ray& ray, const Hit& hit, const Place& place, const 
 Solids Tracer::solids_around(const dvec3& eye) const {
   Solids inside;
   for (std::uint32_t i = 0; i < scene_.objects.size(); ++i)
-    if (scene_.trace.refraction && scene_.objects[i].solid && contains(scene_, scene_.objects[i], eye)) inside.insert(i);
+    if (scene_.trace.refraction && scene_.objects[i].solid && contains(scene_, scene_.objects[i], eye))
+      inside.insert(i);
   return inside;
 }
 

@@ -9,7 +9,7 @@
 namespace sidelight {
 namespace {
 
-constexpr double kU = 0x1p-53;   // unit roundoff
+constexpr double kU = 0x1p-53;  // unit roundoff
 
 glm::dvec3 absolute(const glm::dvec3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
@@ -86,8 +86,8 @@ Place locate_triangle(const Scene& scene, const Triangle& triangle, const Ray& r
 // The plane that touches a surface next to a point near it.
 struct Tangent {
   glm::dvec3 outward{0};
-  double height = 0;      // of the point above it, outward
-  double rounding = 0;    // of that height
+  double height = 0;    // of the point above it, outward
+  double rounding = 0;  // of that height
   double clearance = 0;
 };
 
@@ -136,7 +136,8 @@ constexpr double kAside = 8, kNear = 10;
 
 // Whether the triangle's box, plane and edges may be as near as nearness() says: quick questions before the exact ones,
 // which the other half of a quad would ask at every point. Each product is off by less than 2^-48 of the lengths in it.
-bool may_be_near(const Scene& scene, std::uint32_t triangle, const Ray& ray, const Hit& hit, const Place& place) {
+bool may_be_near(const Scene& scene, std::uint32_t triangle, const Ray& ray, const Hit& hit,
+                 const Place& place) {
   const auto& [v0, v1, v2] = corners(scene, scene.triangles[triangle]);
   const glm::dvec3 low = glm::min(v0, glm::min(v1, v2)), high = glm::max(v0, glm::max(v1, v2));
   const double room = nearness(ray, hit, place, largest(glm::max(-low, high)));
@@ -156,7 +157,8 @@ bool may_be_near(const Scene& scene, std::uint32_t triangle, const Ray& ray, con
 // cannot. So the edges of a convex body need nothing.
 bool rises(const Scene& scene, std::uint32_t other, const Ray& ray, const Hit& hit, SignCounts& counts) {
   const PrimitiveRef ref = primitive_ref(scene, other);
-  if (ref.kind != ObjectKind::mesh || primitive_ref(scene, hit.primitive).kind == ObjectKind::sphere) return true;
+  if (ref.kind != ObjectKind::mesh || primitive_ref(scene, hit.primitive).kind == ObjectKind::sphere)
+    return true;
   const int front = side_of(scene, hit.primitive, ray.origin, counts);
   const auto& vertex = scene.triangles[ref.index].vertex;
   return std::any_of(vertex.begin(), vertex.end(), [&](std::uint32_t v) {
@@ -166,7 +168,8 @@ bool rises(const Scene& scene, std::uint32_t other, const Ray& ray, const Hit& h
 
 // The side of the surface on which the ray travels just before `hit`: its origin's, unless it crossed it on the way, as
 // rays do that pass a surface unnoticed.
-int side_before(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& hit, SignCounts& counts) {
+int side_before(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& hit,
+                SignCounts& counts) {
   int side = side_of(scene, primitive, ray.origin, counts);
   Hit crossed = intersect(scene, primitive, ray, kRayStart, counts);
   for (; crossed.found() && before(crossed, hit); crossed = intersect(scene, primitive, ray, crossed, counts))
@@ -187,9 +190,15 @@ Place locate(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& cou
   const PrimitiveRef ref = primitive_ref(scene, hit.primitive);
   Place place;
   switch (ref.kind) {
-    case ObjectKind::sphere: place = locate_sphere(scene.spheres[ref.index], ray, hit); break;
-    case ObjectKind::plane: place = locate_plane(scene.planes[ref.index], ray, hit); break;
-    case ObjectKind::mesh: place = locate_triangle(scene, scene.triangles[ref.index], ray, counts); break;
+    case ObjectKind::sphere:
+      place = locate_sphere(scene.spheres[ref.index], ray, hit);
+      break;
+    case ObjectKind::plane:
+      place = locate_plane(scene.planes[ref.index], ray, hit);
+      break;
+    case ObjectKind::mesh:
+      place = locate_triangle(scene, scene.triangles[ref.index], ray, counts);
+      break;
   }
   place.facing = place.entering ? place.outward : -place.outward;
   // Two surfaces whose points cannot be told apart: 2 clearances, seen along the ray, and the rounding of two depths.
@@ -203,8 +212,8 @@ double nearness(const Ray& ray, const Hit& hit, const Place& place, double reach
   return kNear * (step_of(ray, hit, place) + 32 * kU * reach) + point_error(ray, hit, place);
 }
 
-bool stands_near(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& hit, const Place& place,
-                 SignCounts& counts) {
+bool stands_near(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& hit,
+                 const Place& place, SignCounts& counts) {
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   if (primitive == hit.primitive) return false;
   if (ref.kind == ObjectKind::mesh &&
@@ -246,7 +255,7 @@ glm::dvec3 leaving_point(const Scene& scene, const Ray& ray, const Hit& hit, con
     const Tangent wall = tangent_at(scene, walls[i], from);
     const double side = sides[i];
     const glm::dvec3 aside = side * (wall.outward - glm::dot(wall.outward, place.facing) * place.facing);
-    const double sine2 = glm::dot(aside, aside);   // of the angle between the two
+    const double sine2 = glm::dot(aside, aside);  // of the angle between the two
     if (sine2 == 0) break;
     from += (std::max(0.0, -side * wall.height) + 2 * std::max(wall.clearance, step)) / sine2 * aside;
   }
@@ -274,7 +283,7 @@ bool contains(const Scene& scene, const Object& solid, const glm::dvec3& point) 
     const auto [v0, v1, v2] = corners(scene, scene.triangles[i]);
     angle += solid_angle(v0 - point, v1 - point, v2 - point);
   }
-  return angle > 6.283185307179586;   // half of the full 4 pi: inside a mesh wound outward
+  return angle > 6.283185307179586;  // half of the full 4 pi: inside a mesh wound outward
 }
 
 }  // namespace sidelight

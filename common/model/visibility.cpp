@@ -9,7 +9,7 @@
 namespace sidelight {
 namespace {
 
-constexpr double kU = 0x1p-53;   // unit roundoff
+constexpr double kU = 0x1p-53;  // unit roundoff
 
 glm::dvec3 absolute(const glm::dvec3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 
@@ -32,12 +32,14 @@ int dot_cross_sign(const glm::dvec3& x, const glm::dvec3& edge, const glm::dvec3
     ++counts.in_double;
     return value > 0 ? 1 : -1;
   }
-  if (!std::isfinite(bound)) return 0;   // a ray that is not finite lies on no side of anything
+  if (!std::isfinite(bound)) return 0;  // a ray that is not finite lies on no side of anything
   ++counts.exact;
   return exact::determinant_sign(x, b, c);
 }
 
-const glm::dvec3& next(const std::array<glm::dvec3, 3>& a, int k) { return a[static_cast<std::size_t>((k + 1) % 3)]; }
+const glm::dvec3& next(const std::array<glm::dvec3, 3>& a, int k) {
+  return a[static_cast<std::size_t>((k + 1) % 3)];
+}
 const glm::dvec3& after_next(const std::array<glm::dvec3, 3>& a, int k) {
   return a[static_cast<std::size_t>((k + 2) % 3)];
 }
@@ -99,8 +101,8 @@ int edge_agreement(const TriangleView& view, const glm::dvec3& direction, SignCo
   int agreed = 0;
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const int sign =
-        dot_cross_sign(direction, view.edge[i], view.weight[i], next(view.a, k), after_next(view.a, k), counts);
+    const int sign = dot_cross_sign(direction, view.edge[i], view.weight[i], next(view.a, k),
+                                    after_next(view.a, k), counts);
     if (sign * agreed < 0) return 0;
     if (sign != 0) agreed = sign;
   }
@@ -132,7 +134,8 @@ std::array<double, 3> edge_values(const TriangleView& view, const glm::dvec3& di
 // difference of two products, is then off by at most
 //   u (w1_j |e2_k| + |e1_j| w2_k + w1_k |e2_j| + |e1_k| w2_j) + 2 u (|e1_j e2_k| + |e1_k e2_j|)  <=  2 u m_i,
 // m_i the first bracket (w >= |e|), and x . n by at most 2 u + 3 u / 2 < 4 u times sum |x_i| m_i.
-DepthPlane depth_plane(const TriangleView& view, const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2) {
+DepthPlane depth_plane(const TriangleView& view, const glm::dvec3& v0, const glm::dvec3& v1,
+                       const glm::dvec3& v2) {
   const glm::dvec3 e1 = v1 - v0, e2 = v2 - v0;
   const glm::dvec3 w1 = absolute(e1) + absolute(view.a[0]) + absolute(view.a[1]);
   const glm::dvec3 w2 = absolute(e2) + absolute(view.a[0]) + absolute(view.a[2]);
@@ -152,7 +155,8 @@ double triangle_depth(const TriangleView& view, const DepthPlane& plane, const g
   if (sure && t > 0) return t;
   const auto& [a0, a1, a2] = view.a;
   return exact::rounded_quotient(exact::determinant(a0, a1, a2), exact::determinant(direction, a1, a2),
-                                 exact::determinant(direction, a2, a0), exact::determinant(direction, a0, a1));
+                                 exact::determinant(direction, a2, a0),
+                                 exact::determinant(direction, a0, a1));
 }
 
 // E. Haines, J. Guenther, T. Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
@@ -166,19 +170,23 @@ Roots sphere_roots(const Sphere& sphere, const Ray& ray) {
   const double discriminant = r2 - glm::dot(nearest, nearest);
   if (!(discriminant >= 0)) return {};
   const double q = b + std::copysign(std::sqrt(dd * discriminant), b);
-  if (q == 0) return {0, 0};   // touching at the origin
+  if (q == 0) return {0, 0};  // touching at the origin
   const double t0 = (glm::dot(f, f) - r2) / q;
   const double t1 = q / dd;
   return t0 <= t1 ? Roots{t0, t1} : Roots{t1, t0};
 }
 
-Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after, SignCounts& counts) {
+Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after,
+              SignCounts& counts) {
   ++counts.tests;
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   switch (ref.kind) {
-    case ObjectKind::sphere: return intersect_sphere(scene.spheres[ref.index], primitive, ray, after);
-    case ObjectKind::plane: return intersect_plane(scene.planes[ref.index], primitive, ray, after);
-    case ObjectKind::mesh: break;
+    case ObjectKind::sphere:
+      return intersect_sphere(scene.spheres[ref.index], primitive, ray, after);
+    case ObjectKind::plane:
+      return intersect_plane(scene.planes[ref.index], primitive, ray, after);
+    case ObjectKind::mesh:
+      break;
   }
   return intersect_triangle(scene, scene.triangles[ref.index], primitive, ray, after, counts);
 }
@@ -205,7 +213,8 @@ int side_of(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point
       const Plane& plane = scene.planes[ref.index];
       return -sign(glm::dot(plane.normal, plane.point - point));
     }
-    case ObjectKind::mesh: break;
+    case ObjectKind::mesh:
+      break;
   }
   const auto [v0, v1, v2] = corners(scene, scene.triangles[ref.index]);
   return -view_side(view_triangle(point, v0, v1, v2), counts);
@@ -221,7 +230,8 @@ bool before_light(const Scene& scene, const Hit& hit, const Ray& ray, const glm:
   const PrimitiveRef ref = primitive_ref(scene, hit.primitive);
   if (ref.kind == ObjectKind::mesh) {
     // In between iff the two ends lie strictly on opposite sides.
-    return side_of(scene, hit.primitive, light, counts) * side_of(scene, hit.primitive, ray.origin, counts) < 0;
+    return side_of(scene, hit.primitive, light, counts) * side_of(scene, hit.primitive, ray.origin, counts) <
+           0;
   }
   // A light that touches the plane or sphere, as far as rounding lets one tell, is not behind that point of it.
   if (ref.kind == ObjectKind::plane) {

@@ -11,9 +11,8 @@
 namespace sidelight {
 
 struct ErrorMeasure {
-  Metrics metrics;  // max, mean, rms, psnr, non_finite
-  double p999 =
-      0;  // the 99.9th percentile of |a - b| over channel values: the least that 99.9 % do not exceed
+  Metrics metrics;    // max, mean, rms, psnr, non_finite
+  double p999 = 0;    // the least that 99.9 % of |a - b| over channel values do not exceed
   double relmse = 0;  // mean of (a - b)² / (b² + 0.01), b the picture that is nearer the truth
   double depth = 0;   // greatest relative error of a sample's depth where both pictures see the same surface
 };

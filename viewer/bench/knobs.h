@@ -38,8 +38,8 @@ struct Knob {
 };
 std::span<const Knob> knobs();
 
-using Config =
-    std::vector<KnobValue>;  // every knob, in the table's order; kNotThere where the renderer lacks it
+// Every knob, in the table's order; kNotThere where the renderer lacks it.
+using Config = std::vector<KnobValue>;
 inline constexpr std::string_view kNotThere = "-";
 
 Setting setting_of(const Config& config);

@@ -36,9 +36,8 @@ struct BenchPoint {
   std::vector<KnobValue> config;  // every knob, in the table's order
   std::string varied;     // the knobs by which it differs from its renderer's default; empty for that itself
   bool finished = false;  // false: the sweep was interrupted before it; the rest is then not filled
-  std::uint64_t mismatches = 0;  // samples whose surface is not the exact one
-  std::vector<std::string>
-      failures;  // gates and hard cases it fails, in words; empty: it may stand on the front
+  std::uint64_t mismatches = 0;       // samples whose surface is not the exact one
+  std::vector<std::string> failures;  // gates it fails, in words; empty: it may stand on the front
   bool on_front = false;
 
   // Of one frame, scene to finished float picture: frame_ms and cpu_ms. Nothing of it where BenchResult::timed is false.
@@ -52,8 +51,7 @@ struct BenchPoint {
   // By kind, indexed by ErrorKind: empty where it cannot be told, as the sampling error of the reference's own samples.
   std::array<std::optional<PictureError>, kErrorKinds> by_kind;
 
-  Image8 picture,
-      difference;  // at the scene's size in the report; the difference enlarged so that it can be seen
+  Image8 picture, difference;  // at the scene's size; the difference multiplied so that it can be seen
   double difference_gain = 1;  // by this factor
 };
 

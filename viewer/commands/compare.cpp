@@ -23,7 +23,9 @@ struct CompareFlags {
   bool all_modes = false;
 };
 
-nlohmann::ordered_json cause_json(const Cause& cause) { return {{"pixels", cause.pixels}, {"energy", cause.energy}}; }
+nlohmann::ordered_json cause_json(const Cause& cause) {
+  return {{"pixels", cause.pixels}, {"energy", cause.energy}};
+}
 
 std::string comparison_json(const Job& job, const Comparison& result, const Spoiled& spoiled,
                             const TimedFrame& rastered, const TimedFrame& traced) {
@@ -41,9 +43,11 @@ std::string comparison_json(const Job& job, const Comparison& result, const Spoi
   const auto times_json = [](const TimedFrame& t) {
     return nlohmann::ordered_json{{"build", t.build_ms}, {"frame", t.frame_ms}};
   };
-  if (!job.flags.no_times) json["time_ms"] = {{"raster", times_json(rastered)}, {"raytrace", times_json(traced)}};
+  if (!job.flags.no_times)
+    json["time_ms"] = {{"raster", times_json(rastered)}, {"raytrace", times_json(traced)}};
   json["faults"] = nlohmann::ordered_json::object();
-  for (const FaultCount& each : spoiled.by_fault) json["faults"][std::string(fault_name(each.fault))] = each.pixels;
+  for (const FaultCount& each : spoiled.by_fault)
+    json["faults"][std::string(fault_name(each.fault))] = each.pixels;
   return json.dump(2) + "\n";
 }
 
@@ -61,25 +65,35 @@ Labels labels(const Job& job, const TimedFrame& rastered, const TimedFrame& trac
   return out;
 }
 
-void write_pictures(const Job& job, const std::string& folder, const TimedFrame& rastered, const TimedFrame& traced) {
+void write_pictures(const Job& job, const std::string& folder, const TimedFrame& rastered,
+                    const TimedFrame& traced) {
   const int width = rastered.frame.width(), height = rastered.frame.height();
   const Image8 left = picture(rastered.frame), right = picture(traced.frame);
-  const Metadata raster_metadata = job_metadata(job, "raster"), trace_metadata = job_metadata(job, "raytrace");
+  const Metadata raster_metadata = job_metadata(job, "raster"),
+                 trace_metadata = job_metadata(job, "raytrace");
   const Metadata both = job_metadata(job, "raster, raytrace");
   write_png(folder + "/raster.png", left, raster_metadata);
   write_png(folder + "/raytrace.png", right, trace_metadata);
   write_png(folder + "/side_by_side.png", side_by_side(left, right, labels(job, rastered, traced)), both);
-  write_png(folder + "/difference.png", to_image8(absolute_difference(rastered.frame, traced.frame), width, height), both);
+  write_png(folder + "/difference.png",
+            to_image8(absolute_difference(rastered.frame, traced.frame), width, height), both);
   write_png(folder + "/causes.png", to_image8(cause_map(rastered.frame, traced.frame), width, height), both);
   write_exr(folder + "/raster.exr", rastered.frame, raster_metadata);
   write_exr(folder + "/raytrace.exr", traced.frame, trace_metadata);
 }
 
-std::string report(const Job& job, const Comparison& result, const TimedFrame& rastered, const TimedFrame& traced) {
+std::string report(const Job& job, const Comparison& result, const TimedFrame& rastered,
+                   const TimedFrame& traced) {
   const Metrics::Max& max = result.metrics.max;
-  CompareReport out{job.scene, rastered.frame, traced.frame, result, job_metadata(job, "raster, raytrace"),
+  CompareReport out{job.scene,
+                    rastered.frame,
+                    traced.frame,
+                    result,
+                    job_metadata(job, "raster, raytrace"),
                     fmt::format("{} --pixel {},{}", command_line(job, "explain"), max.x, max.y),
-                    command_line(job, "view") + fault_arguments(job.options.faults), {}, {}};
+                    command_line(job, "view") + fault_arguments(job.options.faults),
+                    {},
+                    {}};
   if (!job.flags.no_times) {
     out.raster_times = times(rastered);
     out.traced_times = times(traced);
@@ -98,8 +112,10 @@ void print_summary(const Comparison& result, const Spoiled& spoiled, const std::
   line("reflection", result.reflection);
   line("refraction", result.refraction);
   for (const FaultCount& each : spoiled.by_fault)
-    fmt::print(stderr, "  the fault {} spoils {} pixels, which are in neither count; {} of them show another surface\n",
-               fault_name(each.fault), each.pixels, each.other_surface);
+    fmt::print(
+        stderr,
+        "  the fault {} spoils {} pixels, which are in neither count; {} of them show another surface\n",
+        fault_name(each.fault), each.pixels, each.other_surface);
   if (result.visibility_mismatches > 0)
     fmt::print(stderr, "  first mismatch at pixel {},{}\n", result.mismatch_x, result.mismatch_y);
   if (result.unexplained > 0)
@@ -132,12 +148,15 @@ int run_compare(const CompareFlags& flags) {
 
 void add_compare_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<CompareFlags>();
-  CLI::App* verb = app.add_subcommand("compare", "both pictures of a scene, their difference, and the reason for it");
+  CLI::App* verb =
+      app.add_subcommand("compare", "both pictures of a scene, their difference, and the reason for it");
   add_job_flags(*verb, flags->job);
   add_fault_flags(*verb, flags->job.faults);
-  verb->add_option("-o,--output", flags->folder, "folder DIR for the report, the pictures and compare.json")->required();
+  verb->add_option("-o,--output", flags->folder, "folder DIR for the report, the pictures and compare.json")
+      ->required();
   verb->add_flag("--no-times", flags->job.no_times, "leave times out, so that equal runs give equal files");
-  verb->add_flag("--all-modes", flags->all_modes, "also each layer and each step of the ledger, as pictures in DIR/modes");
+  verb->add_flag("--all-modes", flags->all_modes,
+                 "also each layer and each step of the ledger, as pictures in DIR/modes");
   verb->footer(
       "DIR/report.html, opened by a double click, shows and explains it all.\n"
       "Exit code 1 if any sample or pixel is not accounted for, or a fault on purpose spoils one.\n"

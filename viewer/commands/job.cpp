@@ -42,11 +42,12 @@ void apply_size(const JobFlags& flags, Scene& scene) {
 Rect parse_crop(const JobFlags& flags, const Scene& scene) {
   if (flags.crop.empty()) return {};
   const std::vector<int> c = numbers(flags.crop, ',');
-  const bool inside = c.size() == 4 && 0 <= c[0] && c[0] < c[2] && c[2] <= scene.width && 0 <= c[1] && c[1] < c[3] &&
-                      c[3] <= scene.height;
+  const bool inside = c.size() == 4 && 0 <= c[0] && c[0] < c[2] && c[2] <= scene.width && 0 <= c[1] &&
+                      c[1] < c[3] && c[3] <= scene.height;
   if (!inside)
-    throw UsageError(fmt::format("--crop wants x0,y0,x1,y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}; got '{}'",
-                                 scene.width, scene.height, flags.crop));
+    throw UsageError(
+        fmt::format("--crop wants x0,y0,x1,y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}; got '{}'",
+                    scene.width, scene.height, flags.crop));
   return {c[0], c[1], c[2], c[3]};
 }
 
@@ -90,7 +91,8 @@ void apply_faults(const JobFlags& flags, Job& job) {
 glm::ivec2 parse_size(const std::string& text, const char* flag) {
   const std::vector<int> size = numbers(text, 'x');
   if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > 65535 || size[1] > 65535)
-    throw UsageError(fmt::format("{0} wants WxH with sides from 1 to 65535, as in {0} 640x480; got '{1}'", flag, text));
+    throw UsageError(
+        fmt::format("{0} wants WxH with sides from 1 to 65535, as in {0} 640x480; got '{1}'", flag, text));
   return {size[0], size[1]};
 }
 
@@ -98,7 +100,8 @@ glm::ivec2 parse_pixel(const std::string& text, int width, int height, const cha
   const std::vector<int> at = numbers(text, ',');
   const bool inside = at.size() == 2 && at[0] >= 0 && at[1] >= 0 && at[0] < width && at[1] < height;
   if (!inside)
-    throw UsageError(fmt::format("{} wants two numbers x,y from 0,0 to {},{}; got '{}'", flag, width - 1, height - 1, text));
+    throw UsageError(fmt::format("{} wants two numbers x,y from 0,0 to {},{}; got '{}'", flag, width - 1,
+                                 height - 1, text));
   return {at[0], at[1]};
 }
 
@@ -135,7 +138,8 @@ Job load_job(const JobFlags& flags, const Settings& set) {
   job.options.cancel = &interrupt_flag();
   const int n = samples_per_edge(flags.spp);
   if (n == 0 || n > 64)
-    throw UsageError(fmt::format("--spp wants a square number from 1 to 4096 (1, 4, 9, 16, ...); got {}", flags.spp));
+    throw UsageError(
+        fmt::format("--spp wants a square number from 1 to 4096 (1, 4, 9, 16, ...); got {}", flags.spp));
 
   const double start = wall_ms();
   Settings settings = set;
@@ -143,7 +147,8 @@ Job load_job(const JobFlags& flags, const Settings& set) {
   job.scene = load_scene_with(flags.scene, settings);
   job.load_ms = wall_ms() - start;
   if (!flags.quiet)
-    for (const std::string& warning : job.scene.warnings) fmt::print(stderr, "{}\n", printable(warning, 2000));
+    for (const std::string& warning : job.scene.warnings)
+      fmt::print(stderr, "{}\n", printable(warning, 2000));
 
   apply_size(flags, job.scene);
   apply_trace(flags, job.scene.trace);
@@ -157,31 +162,33 @@ void check_memory(const Job& job, int pairs) { check_memory(job.scene, job.camer
 
 void check_memory(const Scene& scene, int n, const RenderOptions& options, int pairs) {
   const double needed = pairs * static_cast<double>(frame_bytes(scene.width, scene.height, n, options));
-  const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double machine =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   // Lattice coordinates are ints, with room for 2nW.
   const bool too_fine = std::max(scene.width, scene.height) > 500'000'000 / n;
   if (needed > 0.8 * machine || too_fine)
-    throw InputError({scene.file, 0, 0},
-                     fmt::format("a picture of {}x{} with {} samples per pixel needs {:.1f} GB; this machine has {:.1f} GB",
-                                 scene.width, scene.height, n * n, needed / 1e9, machine / 1e9));
+    throw InputError(
+        {scene.file, 0, 0},
+        fmt::format(
+            "a picture of {}x{} with {} samples per pixel needs {:.1f} GB; this machine has {:.1f} GB",
+            scene.width, scene.height, n * n, needed / 1e9, machine / 1e9));
 }
 
 Metadata job_metadata(const Job& job, const std::string& renderer) {
   const TraceSettings& trace = job.scene.trace;
   const auto on = [](bool value) { return std::string(value ? "on" : "off"); };
-  Metadata metadata{
-          {"program", "sidelight " SIDELIGHT_VERSION},
-          {"renderer", renderer},
-          {"scene", printable(job.flags.scene, 1000)},
-          {"scene_hash", job.scene.hash},
-          {"title", printable(job.scene.title, 1000)},
-          {"size", fmt::format("{}x{}", job.scene.width, job.scene.height)},
-          {"samples_per_pixel", std::to_string(job.flags.spp)},
-          {"depth", std::to_string(trace.depth)},
-          {"contribution_cut", fmt::format("{}", trace.contribution_cut)},
-          {"shadows", on(trace.shadows)},
-          {"reflection", on(trace.reflection)},
-          {"refraction", on(trace.refraction)}};
+  Metadata metadata{{"program", "sidelight " SIDELIGHT_VERSION},
+                    {"renderer", renderer},
+                    {"scene", printable(job.flags.scene, 1000)},
+                    {"scene_hash", job.scene.hash},
+                    {"title", printable(job.scene.title, 1000)},
+                    {"size", fmt::format("{}x{}", job.scene.width, job.scene.height)},
+                    {"samples_per_pixel", std::to_string(job.flags.spp)},
+                    {"depth", std::to_string(trace.depth)},
+                    {"contribution_cut", fmt::format("{}", trace.contribution_cut)},
+                    {"shadows", on(trace.shadows)},
+                    {"reflection", on(trace.reflection)},
+                    {"refraction", on(trace.refraction)}};
   if (job.options.faults.any()) metadata.emplace_back("faults", job.options.faults.text());
   return metadata;
 }

@@ -21,17 +21,17 @@ namespace sidelight {
 
 struct JobFlags {
   std::string scene;
-  std::string size;        // -r WxH
-  std::string crop;        // --crop x0,y0,x1,y1
-  std::string isa;         // --isa
-  int threads = 0;         // -j
-  int spp = 1;             // --spp
-  int depth = 0;           // --depth; 0: as the scene says
+  std::string size;  // -r WxH
+  std::string crop;  // --crop x0,y0,x1,y1
+  std::string isa;   // --isa
+  int threads = 0;   // -j
+  int spp = 1;       // --spp
+  int depth = 0;     // --depth; 0: as the scene says
   bool no_shadows = false, no_reflection = false, no_refraction = false, local = false;
-  bool quiet = false;      // -q
-  bool no_times = false;   // --no-times
-  FaultFlags faults;       // where the verb has them
-  std::vector<std::string> set;   // --set KEY=VALUE, where the verb has it
+  bool quiet = false;            // -q
+  bool no_times = false;         // --no-times
+  FaultFlags faults;             // where the verb has them
+  std::vector<std::string> set;  // --set KEY=VALUE, where the verb has it
 };
 
 // Adds the flags to a verb, with their help texts: all of them, those that say how a scene is rendered, or -q alone.
@@ -48,14 +48,15 @@ glm::ivec2 parse_pixel(const std::string& text, int width, int height, const cha
 // A scene ready to be rendered.
 struct Job {
   JobFlags flags;
-  Scene scene;             // overrides applied; its title says which faults are on
-  std::optional<Scene> untessellated;   // the same with its spheres, where --tessellate took them
+  Scene scene;                         // overrides applied; its title says which faults are on
+  std::optional<Scene> untessellated;  // the same with its spheres, where --tessellate took them
   Camera camera;
-  RenderOptions options;   // layers and keep_samples are the verb's to set
+  RenderOptions options;  // layers and keep_samples are the verb's to set
   double load_ms = 0;
 };
 
-// Loads and validates, with values of the file replaced (toml.h: load_scene_with). Prints the scene's warnings to stderr unless quiet. Throws InputError, UsageError.
+// Loads and validates, with values of the file replaced by `set`, then by --set (toml.h: load_scene_with). Prints the
+// scene's warnings to stderr unless quiet. Throws InputError, UsageError.
 Job load_job(const JobFlags& flags, const Settings& set = {});
 
 // Refuses, before anything is allocated, what the machine's memory cannot hold: an InputError that names the size.
