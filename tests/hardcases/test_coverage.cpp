@@ -99,7 +99,7 @@ PolygonMesh jittered_grid(const Camera& camera, std::uint32_t cells, Random& ran
 
 // Frames of a partition that take about as many samples as the tier has rays.
 std::uint64_t frames_of(const Camera& camera, std::uint64_t share) {
-  return 1 + tier_count("rays_per_case") / (share * static_cast<std::uint64_t>(camera.width * camera.height));
+  return 1 + tier_count("rays_per_gate") / (share * static_cast<std::uint64_t>(camera.width * camera.height));
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST_CASE("MIR-3: no ray escapes from a closed box of mirrors, and none brings b
   for (const double k : {0.5, 0.99}) {
     const Scene scene = mirror_box(k);
     const raytrace::Prepared prepared(scene);
-    for (std::uint64_t left = 1 + tier_count("rays_per_case") / 200; left > 0; --left) {
+    for (std::uint64_t left = 1 + tier_count("rays_per_gate") / 200; left > 0; --left) {
       const RayRecord root = tree_of(prepared, random.in_box(1), random.in_box(1));
       for_each_ray(root, [&](const RayRecord& ray) {
         ++rays;
@@ -167,7 +167,7 @@ TEST_CASE("MIR-3: no ray escapes through the edges and corners of a closed room 
     const raytrace::Prepared prepared(room.scene);
     Random random(92);
     std::uint64_t escaped = 0, rays = 0;
-    for (std::uint64_t left = 1 + tier_count("rays_per_case") / 1000; left > 0; --left) {
+    for (std::uint64_t left = 1 + tier_count("rays_per_gate") / 1000; left > 0; --left) {
       const glm::dvec3 eye = room.eye(random);
       for_each_ray(tree_of(prepared, eye, room.target(random)), [&](const RayRecord& ray) {
         ++rays;

@@ -186,7 +186,7 @@ TEST_CASE("SHA-2: no light leaves a closed body") {
       for (glm::dvec3& p : star.positions) p = body.scale * p + body.offset;
       Scene scene = scene_of(star);
       const raytrace::Prepared prepared(scene);
-      for (std::uint64_t left = 1 + tier_count("rays_per_case") / 4; left > 0; --left, ++rays) {
+      for (std::uint64_t left = 1 + tier_count("rays_per_gate") / 4; left > 0; --left, ++rays) {
         const auto& v =
             scene.triangles[random.below(static_cast<std::uint32_t>(scene.triangles.size()))].vertex;
         const glm::dvec3 a = scene.positions[v[0]], b = scene.positions[v[1]];

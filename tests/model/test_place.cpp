@@ -42,7 +42,7 @@ Departure depart(const Scene& scene, const glm::dvec3& center, double size, doub
   SignCounts counts;
   Departure result;
   double sum = 0;
-  for (std::uint64_t left = 1 + tier_count("rays_per_case") / kOutward; left > 0; --left) {
+  for (std::uint64_t left = 1 + tier_count("rays_per_gate") / kOutward; left > 0; --left) {
     const glm::dvec3 eye = center + size * random.uniform(3, 103) * random.direction();
     const Ray ray = make_ray(eye, center + 0.5 * size * random.direction() - eye);
     const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);

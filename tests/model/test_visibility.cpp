@@ -51,7 +51,7 @@ Leaks shoot_from_inside(const Target& target) {
   Random random(17);
   SignCounts counts;
   Leaks leaks;
-  for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
+  for (std::uint64_t left = tier_count("rays_per_gate"); left > 0; --left) {
     const glm::dvec3 origin = 0.5 * std::cbrt(random.uniform()) * random.direction();
     const Ray ray = make_ray(origin, target(scene, random) - origin);
     const Hit hit = raytrace::nearest(prepared, ray, kRayStart, counts);
