@@ -40,22 +40,23 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
   std::atomic<int> done{0};
 
   const Bins bins = bin_primitives(prepared.scene, camera, grid, threads);
-  const auto draw_and_shade = [&](auto& depth, int tile, SignCounts& counts) {
+  std::vector<TileResolve> resolves(static_cast<std::size_t>(threads), {prepared, camera, options});
+  const auto draw_and_shade = [&](auto& depth, int tile, int thread) {
+    SignCounts& counts = stats[static_cast<std::size_t>(thread)].signs;
     bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(prepared.scene, primitive, counts); });
-    TileResolve resolve(prepared, camera, options.isa, grid.tile(tile));
-    resolve.shade(depth, counts);
+    TileResolve& resolve = resolves[static_cast<std::size_t>(thread)];
+    resolve.shade(grid.tile(tile), depth, counts);
     resolve.write(frame);
   };
   parallel_for(grid.count(), threads, [&](int tile, int thread) {
     if (options.cancel && *options.cancel) throw Interrupted();
-    SignCounts& counts = stats[static_cast<std::size_t>(thread)].signs;
     if (options.faults.depth_format || options.faults.float_precision) {
       FaultyTile depth(camera, grid.tile(tile), options.faults);
-      draw_and_shade(depth, tile, counts);
+      draw_and_shade(depth, tile, thread);
     } else {
       NoFragments nothing;
       DepthTile depth(camera, grid.tile(tile), nothing, !frame.cost.empty());
-      draw_and_shade(depth, tile, counts);
+      draw_and_shade(depth, tile, thread);
     }
     if (options.progress) options.progress(static_cast<double>(++done) / grid.count());
   });
@@ -74,12 +75,12 @@ RasterRecord explain(const Prepared& prepared, const Camera& camera, int X, int 
   DepthTile depth(camera, pixel, fragments);
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive)
     depth.draw(scene, primitive, counts);
-  TileResolve resolve(prepared, camera, best_isa(), pixel);
-  resolve.shade(depth, counts);
+  TileResolve resolve(prepared, camera, RenderOptions{});
+  resolve.shade(pixel, depth, counts);
 
   RasterRecord record;
   record.fragments = std::move(fragments.fragments);
-  record.color = resolve.sample(X, Y).color;
+  record.color = resolve.color(X, Y);
   if (const Hit& hit = depth.at(X, Y); hit.found()) {
     record.background = false;
     const Ray ray{camera.eye, camera.direction(X, Y)};

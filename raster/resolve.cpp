@@ -1,60 +1,169 @@
 // SPDX-License-Identifier: MIT
 #include "raster/resolve.h"
 
+#include <algorithm>
+
 namespace sidelight::raster {
 namespace {
+
+constexpr LayerMask kParts = layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
 
 glm::vec3 rgb(const ShadingBatch::Rgb& from, std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
 
 }  // namespace
 
-TileResolve::TileResolve(const Prepared& prepared, const Camera& camera, Isa isa, const Rect& pixels)
+TileResolve::TileResolve(const Prepared& prepared, const Camera& camera, const RenderOptions& options)
     : prepared_(prepared),
       camera_(camera),
-      isa_(isa),
-      pixels_(pixels),
-      samples_(static_cast<std::size_t>(camera.n * pixels.width()) *
-               static_cast<std::size_t>(camera.n * pixels.height())) {}
-
-void TileResolve::shade_sample(int X, int Y, const Hit& hit, SignCounts& counts) {
-  const Scene& scene = prepared_.scene;
-  Sample& sample = samples_[index(X, Y)];
-  if (!hit.found()) {
-    sample.color = sample[Layer::ambient] = glm::vec3(scene.background);
-    return;
-  }
-  const Ray ray{camera_.eye, camera_.direction(X, Y)};
-  const Surface surface = surface_at(scene, ray, hit, counts);
-  sample.object = 1 + surface.object;
-  sample.primitive = 1 + hit.primitive;
-  sample.t = hit.t;
-  sample.normal = glm::vec3(surface.normal);
-  pending_[static_cast<std::size_t>(batch_.size)] = &sample;
-  batch_.add(shading_point(prepared_.tables, surface, ray), prepared_.tables.materials[surface.material]);
-  if (batch_.full()) flush();
+      isa_(options.isa),
+      n_(camera.n),
+      want_parts_((options.layers & kParts) != 0),
+      want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
+      want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples) {
+  for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
+    batches_[static_cast<std::size_t>(kind)].kind = kind;
 }
 
-void TileResolve::flush() {
-  sidelight::shade(isa_, prepared_.tables, batch_);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.size); ++i) {
-    Sample& sample = *pending_[i];
-    sample.color = rgb(batch_.unshadowed, i);
-    sample[Layer::ambient] = rgb(batch_.ambient_layer, i);
-    sample[Layer::diffuse] = rgb(batch_.diffuse_layer, i);
-    sample[Layer::specular] = rgb(batch_.specular_layer, i);
+void TileResolve::begin(const Rect& pixels) {
+  pixels_ = pixels;
+  const auto samples = static_cast<std::size_t>(columns()) * static_cast<std::size_t>(n_ * pixels.height());
+  primitive_.resize(samples);
+  known_t_.resize(samples);
+  tests_.resize(samples);
+  color_.resize(samples);
+  if (want_t_) t_.resize(samples);
+  if (want_normal_) normal_.resize(samples);
+  if (want_parts_)
+    for (Colors& part : parts_) part.resize(samples);
+}
+
+void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts) {
+  begin(pixels);
+  std::copy_n(primitives, primitive_.size(), primitive_.begin());
+  std::fill(tests_.begin(), tests_.end(), 0);
+  shade_samples(false, counts);
+}
+
+void TileResolve::shade_samples(bool known_t, SignCounts& counts) {
+  for (SurfaceBatch& batch : batches_) {
+    batch.has_t = known_t;
+    batch.want_t = want_t_;
   }
-  batch_.size = 0;
+  std::size_t sample = 0;
+  for (int Y = n_ * pixels_.y0; Y < n_ * pixels_.y1; ++Y) {
+    const double row = camera_.row_factor(Y);
+    for (int X = n_ * pixels_.x0; X < n_ * pixels_.x1; ++X, ++sample) {
+      if (primitive_[sample] == kNone)
+        set_background(sample);
+      else
+        add(primitive_[sample], row, X, sample, counts);
+    }
+  }
+  for (SurfaceBatch& batch : batches_) flush(batch, counts);
+}
+
+void TileResolve::add(std::uint32_t primitive, double row, int X, std::size_t sample, SignCounts& counts) {
+  const Scene& scene = prepared_.scene;
+  const ObjectKind kind = scene.objects[scene.primitive_object[primitive]].kind;
+  SurfaceBatch& batch = batches_[static_cast<std::size_t>(kind)];
+  batch.t[static_cast<std::size_t>(batch.size)] = known_t_[sample];
+  batch.add(camera_.column_factor(X), row, primitive, static_cast<std::uint32_t>(sample));
+  if (batch.full()) flush(batch, counts);
+}
+
+void TileResolve::set_background(std::size_t sample) {
+  color_[sample] = glm::vec3(prepared_.scene.background);
+  if (want_t_) t_[sample] = 0;
+  if (want_normal_) normal_[sample] = glm::vec3(0);
+  if (!want_parts_) return;
+  for (Colors& part : parts_) part[sample] = glm::vec3(0);
+  parts_[0][sample] = color_[sample];   // booked as ambient light
+}
+
+void TileResolve::flush(SurfaceBatch& batch, SignCounts& counts) {
+  surfaces_at(isa_, prepared_.scene, camera_, prepared_.tables, batch, shading_, counts);
+  sidelight::shade(isa_, prepared_.tables, shading_, want_parts_);
+  const auto size = static_cast<std::size_t>(batch.size);
+  for (std::size_t i = 0; i < size; ++i) color_[batch.sample[i]] = rgb(shading_.unshadowed, i);
+  if (want_t_)
+    for (std::size_t i = 0; i < size; ++i) t_[batch.sample[i]] = batch.t[i];
+  if (want_normal_)
+    for (std::size_t i = 0; i < size; ++i) normal_[batch.sample[i]] = rgb(shading_.normal, i);
+  if (want_parts_)
+    for (std::size_t i = 0; i < size; ++i) {
+      parts_[0][batch.sample[i]] = rgb(shading_.ambient_layer, i);
+      parts_[1][batch.sample[i]] = rgb(shading_.diffuse_layer, i);
+      parts_[2][batch.sample[i]] = rgb(shading_.specular_layer, i);
+    }
+  batch.size = 0;
+}
+
+// write(the pixel's index in the frame, the index of its first sample)
+template <class Write>
+void TileResolve::for_each_pixel(const Frame& frame, const Write& write) const {
+  for (int y = pixels_.y0; y < pixels_.y1; ++y) {
+    const std::size_t pixel = frame.index(pixels_.x0, y), sample = index(n_ * pixels_.x0, n_ * y);
+    for (std::size_t x = 0; x < static_cast<std::size_t>(pixels_.width()); ++x)
+      write(pixel + x, sample + static_cast<std::size_t>(n_) * x);
+  }
+}
+
+void TileResolve::write_means(const Colors& samples, const Frame& frame, Colors& pixels) const {
+  // The mean of one sample is the sample, but for the sign of a zero.
+  if (n_ == 1)
+    return for_each_pixel(
+        frame, [&](std::size_t pixel, std::size_t sample) { pixels[pixel] = 0.0f + samples[sample]; });
+  const auto n = static_cast<std::size_t>(n_);
+  for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) {
+    PixelMean mean;
+    for (std::size_t j = 0; j < n; ++j, sample += static_cast<std::size_t>(columns()))
+      for (std::size_t i = 0; i < n; ++i) mean.add(samples[sample + i]);
+    pixels[pixel] = mean.mean(n_ * n_);
+  });
 }
 
 void TileResolve::write(Frame& frame) const {
-  const int n = camera_.n;
-  PixelWriter writer(frame, camera_.depth_scale());
-  for (int y = pixels_.y0; y < pixels_.y1; ++y)
-    for (int x = pixels_.x0; x < pixels_.x1; ++x) {
-      for (int Y = n * y; Y < n * (y + 1); ++Y)
-        for (int X = n * x; X < n * (x + 1); ++X) writer.add(sample(X, Y));
-      writer.write(x, y);
-    }
+  write_means(color_, frame, frame.color);
+  for (std::size_t l = 0; l < parts_.size(); ++l)
+    if (!frame.rgb[l].empty()) write_means(parts_[l], frame, frame.rgb[l]);
+
+  // What is kept of the sample in the middle, (n/2, n/2).
+  const auto n = static_cast<std::size_t>(n_), stride = static_cast<std::size_t>(columns());
+  const std::size_t middle = n / 2 * stride + n / 2;
+  const auto for_each_middle = [&](const auto& array, const auto& write) {
+    if (!array.empty())
+      for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) { write(pixel, sample + middle); });
+  };
+  for_each_middle(frame.depth, [&](std::size_t pixel, std::size_t sample) {
+    frame.depth[pixel] = static_cast<float>(t_[sample] * camera_.depth_scale());
+  });
+  for_each_middle(frame.object_id, [&](std::size_t pixel, std::size_t sample) {
+    const std::uint32_t primitive = primitive_[sample];
+    frame.object_id[pixel] = primitive == kNone ? 0 : 1 + prepared_.scene.primitive_object[primitive];
+  });
+  for_each_middle(frame.primitive_id, [&](std::size_t pixel, std::size_t sample) {
+    frame.primitive_id[pixel] = primitive_[sample] == kNone ? 0 : 1 + primitive_[sample];
+  });
+  for_each_middle(frame.normal, [&](std::size_t pixel, std::size_t sample) {
+    frame.normal[pixel] = normal_[sample];
+  });
+
+  // What is kept of all samples.
+  if (!frame.cost.empty())
+    for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) {
+      std::uint64_t tests = 0;
+      for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i) tests += tests_[sample + j * stride + i];
+      frame.cost[pixel] = static_cast<float>(tests);
+    });
+  if (!frame.sample_primitive.empty())
+    for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) {
+      for (std::size_t j = 0; j < n; ++j) {
+        const auto to = static_cast<std::ptrdiff_t>((pixel * n + j) * n);
+        std::copy_n(&primitive_[sample + j * stride], n, frame.sample_primitive.begin() + to);
+        std::copy_n(&t_[sample + j * stride], n, frame.sample_depth.begin() + to);
+      }
+    });
 }
 
 }  // namespace sidelight::raster

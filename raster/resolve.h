@@ -1,53 +1,73 @@
 // SPDX-License-Identifier: MIT
-// Resolve: a tile's visible samples, shaded once each by the local model, and written as pixels.
+// Resolve: a tile's visible samples, shaded once each by the local model, and written as pixels. It asks the z-buffer for
+// the primitives that are seen and works out the rest; samples are collected by kind of primitive into batches, so that
+// lanes are full. Only what the picture holds is computed.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "common/picture/pixel.h"
+#include "common/model/surface_batch.h"
 #include "raster/prepared.h"
-#include "raster/tile.h"
 
 namespace sidelight::raster {
 
-// The samples of one tile of pixels. Visible points are collected into batches, so that lanes are full.
+// One for each thread, for tile after tile of one picture.
 class TileResolve {
  public:
-  TileResolve(const Prepared& prepared, const Camera& camera, Isa isa, const Rect& pixels);
+  // Of the options, isa, layers and keep_samples.
+  TileResolve(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
-  // Shades what the z-buffer of the same tile holds: a DepthTile, or one with faults.
+  // The samples of `pixels`, of which the z-buffer keeps these primitives (row by row on the lattice; kNone: background).
+  void shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts);
+  // What a tile of hits holds: a DepthTile, or one with faults, whose depths need not be those of visibility.h.
   template <class Tile>
-  void shade(const Tile& tile, SignCounts& counts) {
-    const int n = camera_.n;
-    for (int Y = n * pixels_.y0; Y < n * pixels_.y1; ++Y)
-      for (int X = n * pixels_.x0; X < n * pixels_.x1; ++X) {
-        samples_[index(X, Y)].tests = tile.tests(X, Y);
-        shade_sample(X, Y, tile.at(X, Y), counts);
+  void shade(const Rect& pixels, const Tile& tile, SignCounts& counts) {
+    begin(pixels);
+    std::size_t i = 0;
+    for (int Y = n_ * pixels.y0; Y < n_ * pixels.y1; ++Y)
+      for (int X = n_ * pixels.x0; X < n_ * pixels.x1; ++X, ++i) {
+        primitive_[i] = tile.at(X, Y).primitive;
+        known_t_[i] = tile.at(X, Y).t;
+        tests_[i] = tile.tests(X, Y);
       }
-    flush();
+    shade_samples(true, counts);
   }
 
-  // After shade(): the sample at (X, Y) of the tile, and the pixels' means into the frame.
-  const Sample& sample(int X, int Y) const { return samples_[index(X, Y)]; }
+  // After shade(): the colour of the sample at (X, Y) of the tile, and the pixels' means into the frame.
+  const glm::vec3& color(int X, int Y) const { return color_[index(X, Y)]; }
   void write(Frame& frame) const;
 
  private:
+  using Colors = std::vector<glm::vec3>;
+
+  int columns() const { return n_ * pixels_.width(); }
   std::size_t index(int X, int Y) const {
-    const int n = camera_.n;
-    return static_cast<std::size_t>(Y - n * pixels_.y0) * static_cast<std::size_t>(n * pixels_.width()) +
-           static_cast<std::size_t>(X - n * pixels_.x0);
+    return static_cast<std::size_t>(Y - n_ * pixels_.y0) * static_cast<std::size_t>(columns()) +
+           static_cast<std::size_t>(X - n_ * pixels_.x0);
   }
-  void shade_sample(int X, int Y, const Hit& hit, SignCounts& counts);
-  void flush();
+  void begin(const Rect& pixels);
+  void shade_samples(bool known_t, SignCounts& counts);
+  void add(std::uint32_t primitive, double row, int X, std::size_t sample, SignCounts& counts);
+  void set_background(std::size_t sample);
+  void flush(SurfaceBatch& batch, SignCounts& counts);
+  void write_means(const Colors& samples, const Frame& frame, Colors& pixels) const;
+  template <class Write>
+  void for_each_pixel(const Frame& frame, const Write& write) const;
 
   const Prepared& prepared_;
   const Camera& camera_;
   Isa isa_;
+  int n_;
+  bool want_parts_, want_normal_, want_t_;
   Rect pixels_;
-  std::vector<Sample> samples_;   // row by row on the lattice
-  ShadingBatch batch_;
-  std::array<Sample*, ShadingBatch::kCapacity> pending_{};   // where the batch's results go
+  // Of each sample, row by row on the lattice. What is not wanted is empty, or holds what came before.
+  std::vector<std::uint32_t> primitive_, tests_;
+  std::vector<double> known_t_, t_;
+  Colors color_, normal_;
+  std::array<Colors, 3> parts_;   // ambient, diffuse, specular
+  std::array<SurfaceBatch, 3> batches_;   // by ObjectKind
+  ShadingBatch shading_;
 };
 
 }  // namespace sidelight::raster

@@ -102,4 +102,20 @@ auto to_integer(const F& x) {
     return stdx::static_simd_cast<Bits>(x);
 }
 
+// From doubles F to floats, lane by lane, each rounded once; and back.
+template <class F>
+auto to_float(const F& x) {
+  if constexpr (kLanes<F> == 1)
+    return static_cast<float>(x);
+  else
+    return stdx::static_simd_cast<stdx::rebind_simd_t<float, F>>(x);
+}
+template <class F, class Floats>
+F to_double(const Floats& x) {
+  if constexpr (kLanes<F> == 1)
+    return static_cast<double>(x);
+  else
+    return stdx::static_simd_cast<F>(x);
+}
+
 }  // namespace sidelight

@@ -23,6 +23,11 @@ F dot(const Vec3<F>& a, const Vec3<F>& b) {
 }
 
 template <class F>
+Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class F>
 Vec3<F> select(const Mask<F>& mask, const Vec3<F>& if_true, const Vec3<F>& if_false) {
   return {select<F>(mask, if_true.x, if_false.x), select<F>(mask, if_true.y, if_false.y),
           select<F>(mask, if_true.z, if_false.z)};

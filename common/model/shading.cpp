@@ -103,25 +103,19 @@ template ShadingTablesOf<double> make_shading_tables(const Scene&, const Needs&)
 template ShadingPoint<float> shading_point(const ShadingTablesOf<float>&, const Surface&, const Ray&);
 template ShadingPoint<double> shading_point(const ShadingTablesOf<double>&, const Surface&, const Ray&);
 
-void ShadingBatch::add(const ShadingPoint<float>& point, const ShadingMaterial& material) {
-  const auto i = static_cast<std::size_t>(size++);
+void ShadingBatch::set(std::size_t i, const ShadingPoint<float>& point, std::uint32_t material_number) {
   put(high, i, point.high);
   put(low, i, point.low);
   put(normal, i, point.normal);
-  put(facing, i, point.facing);
   put(to_viewer, i, point.to_viewer);
-  put(ambient, i, point.ambient);
-  put(diffuse, i, point.diffuse);
-  put(specular, i, point.specular);
-  put(local, i, material.local);
-  shininess[i] = point.shininess;
+  material[i] = material_number;
 }
 
-void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch) {
+void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
   switch (isa) {
-    case Isa::scalar: return shade_scalar(tables, batch);
-    case Isa::avx2: return shade_avx2(tables, batch);
-    case Isa::avx512: return shade_avx512(tables, batch);
+    case Isa::scalar: return shade_scalar(tables, batch, with_parts);
+    case Isa::avx2: return shade_avx2(tables, batch, with_parts);
+    case Isa::avx512: return shade_avx512(tables, batch, with_parts);
   }
 }
 

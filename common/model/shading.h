@@ -44,21 +44,23 @@ ShadingPoint<T> shading_point(const ShadingTablesOf<T>& tables, const Surface& s
 
 // Up to kCapacity visible points in structure-of-arrays form, and what the local model makes of them.
 struct ShadingBatch {
-  static constexpr int kCapacity = 64;   // a multiple of every lane count
-  using Channel = std::array<float, kCapacity>;
+  static constexpr int kCapacity = 64, kGroup = 16;   // multiples of every lane count
+  using Channel = std::array<float, static_cast<std::size_t>(kCapacity)>;
   using Rgb = std::array<Channel, 3>;
 
   int size = 0;
-  Rgb high{}, low{}, normal{}, facing{}, to_viewer{}, ambient{}, diffuse{}, specular{}, local{};
-  Channel shininess{};
-  // Results, c1 included: R = local (ka Ia + sum T_i), and its three parts.
-  Rgb unshadowed{}, ambient_layer{}, diffuse_layer{}, specular_layer{};
+  alignas(64) Rgb high{}, low{}, normal{}, to_viewer{};
+  std::array<std::uint32_t, static_cast<std::size_t>(kCapacity)> material{};   // into ShadingTables::materials
+  // Results, c1 included: R = local (ka Ia + sum T_i), and its three parts, if asked for.
+  alignas(64) Rgb unshadowed{}, ambient_layer{}, diffuse_layer{}, specular_layer{};
 
   bool full() const { return size == kCapacity; }
-  void add(const ShadingPoint<float>& point, const ShadingMaterial& material);
+  // Entry i. A batch keeps no facing, and takes the coefficients from the tables.
+  void set(std::size_t i, const ShadingPoint<float>& point, std::uint32_t material_number);
 };
 
-// Fills the results of entries [0, size). The same bytes for every isa. `isa` must be one the machine has.
-void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch);
+// Fills the results of entries [0, size); the three parts of R if `with_parts`. The same bytes for every isa. `isa` must
+// be one the machine has.
+void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_parts = true);
 
 }  // namespace sidelight

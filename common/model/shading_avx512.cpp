@@ -6,8 +6,8 @@ namespace sidelight {
 
 static_assert(kLanes<stdx::native_simd<float>> == 16);
 
-void shade_avx512(const ShadingTables& tables, ShadingBatch& batch) {
-  shade_batch<stdx::native_simd<float>>(tables, batch);
+void shade_avx512(const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
+  shade_batch<stdx::native_simd<float>>(tables, batch, with_parts);
 }
 
 }  // namespace sidelight

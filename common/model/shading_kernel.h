@@ -19,19 +19,52 @@ void store_rgb(const Vec3<F>& value, ShadingBatch::Rgb& to, std::size_t i) {
   store(value.z, &to[2][i]);
 }
 
+// The materials of entries i and on. Most often it is one, and read once.
 template <class F>
-void shade_lanes(const ShadingTables& tables, ShadingBatch& batch, std::size_t i) {
+struct MaterialLanes {
+  Vec3<F> ambient, diffuse, specular, local;
+  F shininess;
+};
+
+template <class F>
+MaterialLanes<F> load_materials(const ShadingTables& tables, const ShadingBatch& batch, std::size_t i) {
+  const auto lanes_of = [&](const auto& number) {   // number(material) of each lane's material
+    if constexpr (kLanes<F> == 1)
+      return number(tables.materials[batch.material[i]]);
+    else
+      return F([&](auto lane) { return number(tables.materials[batch.material[i + lane]]); });
+  };
+  const std::uint32_t* material = &batch.material[i];
+  bool one = true;
+  for (int lane = 1; lane < kLanes<F>; ++lane) one = one && material[lane] == material[0];
+  const auto number = [&](const auto& of) { return one ? F(of(tables.materials[*material])) : F(lanes_of(of)); };
+  const auto rgb = [&](Vec3<float> ShadingMaterial::*color) {
+    return Vec3<F>{number([=](const ShadingMaterial& m) { return (m.*color).x; }),
+                   number([=](const ShadingMaterial& m) { return (m.*color).y; }),
+                   number([=](const ShadingMaterial& m) { return (m.*color).z; })};
+  };
+  MaterialLanes<F> out;
+  out.ambient = rgb(&ShadingMaterial::ambient);
+  out.diffuse = rgb(&ShadingMaterial::diffuse);
+  out.specular = rgb(&ShadingMaterial::specular);
+  out.local = rgb(&ShadingMaterial::local);
+  out.shininess = number([](const ShadingMaterial& m) { return m.shininess; });
+  return out;
+}
+
+template <class F>
+void shade_lanes(const ShadingTables& tables, ShadingBatch& batch, bool with_parts, std::size_t i) {
+  const MaterialLanes<F> material = load_materials<F>(tables, batch, i);
   ShadingPoint<F> point;
   point.high = load_rgb<F>(batch.high, i);
   point.low = load_rgb<F>(batch.low, i);
   point.normal = load_rgb<F>(batch.normal, i);
-  point.facing = load_rgb<F>(batch.facing, i);
   point.to_viewer = load_rgb<F>(batch.to_viewer, i);
-  point.ambient = load_rgb<F>(batch.ambient, i);
-  point.diffuse = load_rgb<F>(batch.diffuse, i);
-  point.specular = load_rgb<F>(batch.specular, i);
-  point.shininess = load<F>(&batch.shininess[i]);
-  const Vec3<F> local = load_rgb<F>(batch.local, i);   // c1
+  point.ambient = material.ambient;
+  point.diffuse = material.diffuse;
+  point.specular = material.specular;
+  point.shininess = material.shininess;
+  const Vec3<F>& local = material.local;   // c1
 
   const Vec3<float>& light = tables.ambient_light;
   const Vec3<F> ambient = ambient_term<F>(point, {F(light.x), F(light.y), F(light.z)});
@@ -43,20 +76,23 @@ void shade_lanes(const ShadingTables& tables, ShadingBatch& batch, std::size_t i
     specular = specular + term.specular;
   }
   store_rgb(local * sum, batch.unshadowed, i);
+  if (!with_parts) return;
   store_rgb(local * ambient, batch.ambient_layer, i);
   store_rgb(local * diffuse, batch.diffuse_layer, i);
   store_rgb(local * specular, batch.specular_layer, i);
 }
 
-// Whole vectors only: entries beyond batch.size hold what an earlier batch left, finite and unused.
+// Whole vectors only: entries beyond batch.size are computed with the others and unused. Their materials are some that
+// exist, whatever else they hold.
 template <class F>
-void shade_batch(const ShadingTables& tables, ShadingBatch& batch) {
-  for (int i = 0; i < batch.size; i += kLanes<F>) shade_lanes<F>(tables, batch, static_cast<std::size_t>(i));
+void shade_batch(const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
+  for (int i = 0; i < batch.size; i += kLanes<F>)
+    shade_lanes<F>(tables, batch, with_parts, static_cast<std::size_t>(i));
 }
 
 // One for each instruction set.
-void shade_scalar(const ShadingTables& tables, ShadingBatch& batch);
-void shade_avx2(const ShadingTables& tables, ShadingBatch& batch);
-void shade_avx512(const ShadingTables& tables, ShadingBatch& batch);
+void shade_scalar(const ShadingTables& tables, ShadingBatch& batch, bool with_parts);
+void shade_avx2(const ShadingTables& tables, ShadingBatch& batch, bool with_parts);
+void shade_avx512(const ShadingTables& tables, ShadingBatch& batch, bool with_parts);
 
 }  // namespace sidelight

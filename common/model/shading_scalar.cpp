@@ -4,8 +4,8 @@
 
 namespace sidelight {
 
-void shade_scalar(const ShadingTables& tables, ShadingBatch& batch) {
-  shade_batch<float>(tables, batch);
+void shade_scalar(const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
+  shade_batch<float>(tables, batch, with_parts);
 }
 
 }  // namespace sidelight

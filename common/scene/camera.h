@@ -23,9 +23,12 @@ struct Camera {
   int rows() const { return n * height; }
   double depth_scale() const { return 2.0 * rows(); }
 
+  // The factors of r and u in a direction.
+  double column_factor(int X) const { return static_cast<double>(2 * X + 1 - columns()); }
+  double row_factor(int Y) const { return static_cast<double>(rows() - 1 - 2 * Y); }
   // The summands of a direction, so that a loop over a row may keep them.
-  glm::dvec3 column_part(int X) const { return static_cast<double>(2 * X + 1 - columns()) * right; }
-  glm::dvec3 row_part(int Y) const { return static_cast<double>(rows() - 1 - 2 * Y) * up; }
+  glm::dvec3 column_part(int X) const { return column_factor(X) * right; }
+  glm::dvec3 row_part(int Y) const { return row_factor(Y) * up; }
   glm::dvec3 axis_part() const { return depth_scale() * forward; }
 
   glm::dvec3 direction(int X, int Y) const { return (column_part(X) + row_part(Y)) + axis_part(); }

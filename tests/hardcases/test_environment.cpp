@@ -58,13 +58,13 @@ TEST_CASE("DET-2: lanes that are not used may hold anything") {
   const ShadingTables tables = make_shading_tables(scene, needs_of(scene));
   const Camera camera = relation_camera(scene);
   SignCounts counts;
-  std::vector<std::pair<ShadingPoint<float>, ShadingMaterial>> points;
+  std::vector<std::pair<ShadingPoint<float>, std::uint32_t>> points;
   for (int X = 0; points.size() < 40 && X < 67; ++X) {
     const Ray ray{camera.eye, camera.direction(X, 30)};
     const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
     if (!hit.found()) continue;
     const Surface surface = surface_at(scene, ray, hit, counts);
-    points.emplace_back(shading_point(tables, surface, ray), tables.materials[surface.material]);
+    points.emplace_back(shading_point(tables, surface, ray), surface.material);
   }
   REQUIRE(points.size() == 40);
   std::uint64_t unlike = 0, looked_at = 0;
@@ -76,14 +76,13 @@ TEST_CASE("DET-2: lanes that are not used may hold anything") {
       for (const int size : {1, 3, 7, 8, 9, 17, 40}) {
         ShadingBatch clean, poisoned;
         for (ShadingBatch::Rgb* rgb :
-             {&poisoned.high, &poisoned.low, &poisoned.normal, &poisoned.facing, &poisoned.to_viewer,
-              &poisoned.ambient, &poisoned.diffuse, &poisoned.specular, &poisoned.local})
+             {&poisoned.high, &poisoned.low, &poisoned.normal, &poisoned.to_viewer})
           for (auto& channel : *rgb) channel.fill(poison);
-        poisoned.shininess.fill(poison);
-        for (int i = 0; i < size; ++i) {
-          clean.add(points[static_cast<std::size_t>(i)].first, points[static_cast<std::size_t>(i)].second);
-          poisoned.add(points[static_cast<std::size_t>(i)].first, points[static_cast<std::size_t>(i)].second);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) {
+          clean.set(i, points[i].first, points[i].second);
+          poisoned.set(i, points[i].first, points[i].second);
         }
+        clean.size = poisoned.size = size;
         shade(isa, tables, clean);
         shade(isa, tables, poisoned);
         for (std::size_t c = 0; c < 3; ++c) {

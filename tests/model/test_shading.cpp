@@ -38,11 +38,24 @@ Scene scene_with_lights(Random& random) {
   return scene;
 }
 
-ShadingTables tables_of(const Scene& scene) { return make_shading_tables(scene, needs_of(scene)); }
+// With twenty materials, one in eight without an exponent.
+ShadingTables tables_of(const Scene& scene, Random& random) {
+  ShadingTables tables = make_shading_tables(scene, needs_of(scene));
+  for (int i = 0; i < 20; ++i) {
+    ShadingMaterial material;
+    material.ambient = to_float(colour(random));
+    material.diffuse = to_float(colour(random));
+    material.specular = to_float(i % 5 == 4 ? glm::dvec3(0) : colour(random));
+    material.local = to_float(colour(random));
+    material.shininess = i % 8 == 0 ? 0.0f : static_cast<float>(random.log_uniform(0.1, 1e6));
+    tables.materials.push_back(material);
+  }
+  return tables;
+}
 
 struct Entry {
   ShadingPoint<float> point;
-  ShadingMaterial material;
+  std::uint32_t material;
 };
 
 // Any point, lit or not; one in eight looks straight into the highlight, one in eight lies where a light is.
@@ -55,11 +68,12 @@ Entry any_entry(const ShadingTables& tables, Random& random) {
   point.normal = to_float(normal);
   point.facing = to_float(random.uniform() < 0.5 ? normal : random.direction());
   point.to_viewer = to_float(random.direction());
-  point.ambient = to_float(colour(random));
-  point.diffuse = to_float(colour(random));
-  point.specular = to_float(colour(random));
-  point.shininess = random.below(8) == 0 ? 0.0f : static_cast<float>(random.log_uniform(0.1, 1e6));
-  entry.material.local = to_float(colour(random));
+  entry.material = random.below(2) == 0 ? 3 : random.below(20);   // so that some vectors have one, others many
+  const ShadingMaterial& material = tables.materials[entry.material];
+  point.ambient = material.ambient;
+  point.diffuse = material.diffuse;
+  point.specular = material.specular;
+  point.shininess = material.shininess;
   const ShadingLight<float>& light = tables.lights[0];
   if (random.below(8) == 0) {
     point.high = {light.high[0], light.high[1], light.high[2]};
@@ -71,6 +85,10 @@ Entry any_entry(const ShadingTables& tables, Random& random) {
     if (glm::dot(away, away) > 0) point.normal = point.to_viewer = to_float(glm::normalize(away));
   }
   return entry;
+}
+
+void add(ShadingBatch& batch, const Entry& entry) {
+  batch.set(static_cast<std::size_t>(batch.size++), entry.point, entry.material);
 }
 
 std::uint64_t differing_entries(const ShadingBatch& a, const ShadingBatch& b) {
@@ -90,7 +108,7 @@ std::uint64_t differing_entries(const ShadingBatch& a, const ShadingBatch& b) {
 
 std::uint64_t entries_unlike_scalar(Isa isa) {
   Random random(7);
-  const ShadingTables tables = tables_of(scene_with_lights(random));
+  const ShadingTables tables = tables_of(scene_with_lights(random), random);
   std::uint64_t differing = 0;
   ShadingBatch batch, scalar;  // reused as a renderer does: entries beyond the size hold what came before
   for (std::uint64_t rounds = 1 + tier_count("rays_per_case") / (64 * 32); rounds > 0; --rounds)
@@ -98,8 +116,8 @@ std::uint64_t entries_unlike_scalar(Isa isa) {
       batch.size = scalar.size = 0;
       while (batch.size < size) {
         const Entry entry = any_entry(tables, random);
-        batch.add(entry.point, entry.material);
-        scalar.add(entry.point, entry.material);
+        add(batch, entry);
+        add(scalar, entry);
       }
       shade(isa, tables, batch);
       shade(Isa::scalar, tables, scalar);
@@ -122,14 +140,14 @@ TEST_CASE("AVX-512 shades batches of 1 to 64 points to the bytes of the scalar t
 
 TEST_CASE("a batch holds c1 times ambient light plus the light terms in the scene's order") {
   Random random(8);
-  const ShadingTables tables = tables_of(scene_with_lights(random));
+  const ShadingTables tables = tables_of(scene_with_lights(random), random);
   std::uint64_t differing = 0;
   for (std::uint64_t left = 1 + tier_count("rays_per_case") / 64; left > 0; --left) {
     ShadingBatch batch, expected;
     std::array<Entry, 64> entries;
     for (Entry& entry : entries) {
       entry = any_entry(tables, random);
-      batch.add(entry.point, entry.material);
+      add(batch, entry);
     }
     expected.size = batch.size;
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -143,9 +161,10 @@ TEST_CASE("a batch holds c1 times ambient light plus the light terms in the scen
         specular = specular + term.specular;
       }
       const auto put = [&](ShadingBatch::Rgb& to, const Vec3<float>& v) {
-        to[0][i] = material.local.x * v.x;
-        to[1][i] = material.local.y * v.y;
-        to[2][i] = material.local.z * v.z;
+        const Vec3<float>& c1 = tables.materials[material].local;
+        to[0][i] = c1.x * v.x;
+        to[1][i] = c1.y * v.y;
+        to[2][i] = c1.z * v.z;
       };
       put(expected.unshadowed, sum);
       put(expected.ambient_layer, ambient);
@@ -160,10 +179,10 @@ TEST_CASE("a batch holds c1 times ambient light plus the light terms in the scen
 
 TEST_CASE("a batch of none changes nothing") {
   Random random(9);
-  const ShadingTables tables = tables_of(scene_with_lights(random));
+  const ShadingTables tables = tables_of(scene_with_lights(random), random);
   ShadingBatch batch;
   const Entry entry = any_entry(tables, random);
-  batch.add(entry.point, entry.material);
+  add(batch, entry);
   shade(Isa::scalar, tables, batch);
   const ShadingBatch before = batch;
   batch.size = 0;
@@ -184,7 +203,7 @@ TEST_CASE("shading lengths are scaled by a power of two, which light and attenua
     light.attenuation = {1, 0.5 / unit, 0.25 / unit / unit};
     scene.lights.push_back(light);
     scene.camera.eye = glm::dvec3(0, 0, 8) * unit;
-    const ShadingTables tables = tables_of(scene);
+    const ShadingTables tables = make_shading_tables(scene, needs_of(scene));
     CHECK(tables.length_scale == std::exp2(-k - 3));
     ShadingPoint<float> point;
     point.normal = point.facing = {0, 0, 1};
@@ -208,7 +227,7 @@ TEST_CASE("points and lights are split into two floats that hold 48 bits of each
     light.position = random.in_box(1000);
     light.intensity = glm::dvec3(1);
     scene.lights.push_back(light);
-    const ShadingTables tables = tables_of(scene);
+    const ShadingTables tables = make_shading_tables(scene, needs_of(scene));
     Surface surface;
     surface.point = random.in_box(1000);
     const ShadingPoint<float> point = shading_point(tables, surface, {{0, 0, 0}, {0, 0, 1}});

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "common/model/surface_batch.h"
+
+#include <algorithm>
+
+#include "common/model/surface_kernel.h"
+
+namespace sidelight {
+namespace {
+
+using Group = SurfaceBatch::Group;
+
+Vec3<double> vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+void put(SurfaceBatch::Vectors& to, std::size_t i, const glm::dvec3& v) {
+  to[0][i] = v.x;
+  to[1][i] = v.y;
+  to[2][i] = v.z;
+}
+
+bool shiny(const ShadingMaterial& material) {
+  const Vec3<float>& ks = material.specular;
+  return ks.x != 0 || ks.y != 0 || ks.z != 0;
+}
+
+// What the kernel reads of one primitive, into entry i; its material.
+std::uint32_t fetch(const Scene& scene, SurfaceBatch& batch, Group& group, std::size_t i) {
+  const std::uint32_t index = primitive_ref(scene, batch.primitive[i]).index;
+  if (batch.kind == ObjectKind::sphere) {
+    const Sphere& sphere = scene.spheres[index];
+    put(batch.vector[0], i, sphere.center);
+    batch.vector[1][0][i] = sphere.radius;
+    return sphere.material;
+  }
+  if (batch.kind == ObjectKind::plane) {
+    const Plane& plane = scene.planes[index];
+    put(batch.vector[0], i, plane.point);
+    put(batch.vector[1], i, plane.normal);
+    return plane.material;
+  }
+  const Triangle& triangle = scene.triangles[index];
+  for (std::size_t k = 0; k < 3; ++k) put(batch.vector[k], i, scene.positions[triangle.vertex[k]]);
+  const bool flat = triangle.normal[0] == kNone;
+  (flat ? group.flat : group.smooth) = true;
+  for (std::size_t k = 0; k < 3; ++k)
+    put(batch.vector[3 + k], i, flat ? glm::dvec3(0) : scene.normals[triangle.normal[k]]);
+  return triangle.material;
+}
+
+// Entries beyond the last, up to a whole group, repeat it, so that lanes are full of what is true somewhere.
+void pad(SurfaceBatch& batch) {
+  const auto size = static_cast<std::size_t>(batch.size);
+  for (std::size_t i = size; i % SurfaceBatch::kGroup != 0; ++i) {
+    batch.column[i] = batch.column[size - 1];
+    batch.row[i] = batch.row[size - 1];
+    batch.t[i] = batch.t[size - 1];
+    batch.primitive[i] = batch.primitive[size - 1];
+  }
+}
+
+void fetch_group(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch, ShadingBatch& out,
+                 std::size_t first) {
+  constexpr std::size_t kGroup = SurfaceBatch::kGroup;
+  Group& group = batch.group[first / kGroup];
+  const std::uint32_t* primitive = &batch.primitive[first];
+  group = {};
+  group.one = std::all_of(primitive + 1, primitive + kGroup, [&](std::uint32_t p) { return p == *primitive; });
+  if (group.one) {
+    const std::uint32_t material = fetch(scene, batch, group, first);
+    group.shiny = shiny(tables.materials[material]);
+    std::fill_n(&out.material[first], kGroup, material);
+    return;
+  }
+  for (std::size_t i = first; i < first + kGroup; ++i) {
+    out.material[i] = fetch(scene, batch, group, i);
+    group.shiny |= shiny(tables.materials[out.material[i]]);
+  }
+}
+
+// What the lanes leave undecided.
+void ask_again(const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
+               std::size_t i, ShadingBatch& out, SignCounts& counts) {
+  const Ray ray{camera.eye, (batch.column[i] * camera.right + batch.row[i] * camera.up) + camera.axis_part()};
+  Hit hit{batch.t[i], batch.primitive[i]};
+  SignCounts not_again;   // the z-buffer has counted this test
+  if (!batch.has_t) hit = intersect(scene, hit.primitive, ray, kRayStart, not_again);
+  batch.t[i] = hit.t;
+  const Surface surface = surface_at(scene, ray, hit, counts);
+  out.set(i, shading_point(tables, surface, ray), surface.material);
+}
+
+}  // namespace
+
+void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
+                 ShadingBatch& out, SignCounts& counts) {
+  out.size = batch.size;
+  if (batch.size == 0) return;
+  pad(batch);
+  const auto size = static_cast<std::size_t>(batch.size);
+  for (std::size_t i = 0; i < size; i += SurfaceBatch::kGroup) fetch_group(scene, tables, batch, out, i);
+
+  const SurfaceView view{vec(camera.eye), vec(camera.right), vec(camera.up), vec(camera.axis_part()),
+                         tables.length_scale};
+  switch (isa) {
+    case Isa::scalar: surfaces_scalar(view, batch, out); break;
+    case Isa::avx2: surfaces_avx2(view, batch, out); break;
+    case Isa::avx512: surfaces_avx512(view, batch, out); break;
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    if (batch.doubtful[i] != 0)
+      ask_again(scene, camera, tables, batch, i, out, counts);
+    else if (batch.kind == ObjectKind::mesh)
+      ++counts.in_double;   // the side that is seen
+  }
+}
+
+}  // namespace sidelight

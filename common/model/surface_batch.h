@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The surfaces at many hits of eye rays at once, in structure-of-arrays form: what surface_at() and shading_point() say of
+// one hit, bit for bit, computed in lanes. Whoever collects hits of one kind of primitive in a SurfaceBatch gets a
+// ShadingBatch, ready to be shaded. surface_at() is the readable twin, and what decides wherever the lanes' own, coarser
+// certificates do not (a triangle seen nearly edge-on).
+#pragma once
+
+#include "common/model/shading.h"
+#include "common/scene/camera.h"
+
+namespace sidelight {
+
+// Samples of the lattice whose eye rays meet primitives of one kind.
+struct SurfaceBatch {
+  static constexpr int kCapacity = ShadingBatch::kCapacity, kGroup = ShadingBatch::kGroup;
+  template <class T>
+  using Channel = std::array<T, static_cast<std::size_t>(kCapacity)>;
+  using Vectors = std::array<Channel<double>, 3>;
+
+  ObjectKind kind = ObjectKind::mesh;
+  int size = 0;
+  alignas(64) Channel<double> column, row;   // Camera::column_factor, row_factor
+  alignas(64) Channel<double> t;             // depth, where it is known; else a result, where it is asked for
+  alignas(64) Channel<std::uint32_t> primitive, sample;   // `sample` is the caller's own number
+  bool has_t = false;   // t is given
+  bool want_t = false;
+
+  bool full() const { return size == kCapacity; }
+  void add(double column_factor, double row_factor, std::uint32_t of_primitive, std::uint32_t own_number) {
+    const auto i = static_cast<std::size_t>(size++);
+    column[i] = column_factor;
+    row[i] = row_factor;
+    primitive[i] = of_primitive;
+    sample[i] = own_number;
+  }
+
+  // What the kernel reads of the scene, entry by entry; of a group with one primitive, at the group's first entry only.
+  // Triangles: three corners and three vertex normals (zero: none). Spheres: center, and radius in vector[1][0]. Planes:
+  // point and normal.
+  alignas(64) std::array<Vectors, 6> vector;
+  struct Group {
+    bool one = false;      // all of one primitive
+    bool flat = false;     // some triangle has no vertex normals
+    bool smooth = false;   // some triangle has
+    bool shiny = false;    // V is asked for
+  };
+  std::array<Group, static_cast<std::size_t>(kCapacity / kGroup)> group;
+  alignas(64) Channel<double> doubtful;   // a result: not 0 where the lanes cannot be sure
+};
+
+// Fills entries [0, size) of `out`, but facing, and of batch.t. The same bytes for every isa.
+void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
+                 ShadingBatch& out, SignCounts& counts);
+
+}  // namespace sidelight

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// surfaces_at() says what surface_at() and shading_point() say, bit for bit, on every instruction set: of triangles with
+// and without vertex normals, spheres and planes, seen plainly, from within, nearly edge-on and from far away.
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+#include "common/model/surface_batch.h"
+#include "common/scene/build.h"
+#include "tests/support/random.h"
+#include "tests/tier.h"
+
+using namespace sidelight;
+using namespace sidelight::test;
+
+namespace {
+
+// Corners and, of every second one, normals; slivers, triangles seen edge-on by an eye at the origin, tiny ones.
+void add_triangles(Scene& scene, Random& random, std::uint32_t material) {
+  PolygonMesh mesh;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const glm::dvec3 v0 = random.in_box(3) - glm::dvec3(0, 0, 4);
+    const double size = i % 3 == 0 ? random.log_uniform(1e-7, 1) : 2;
+    const glm::dvec3 v1 = v0 + size * random.in_box(1);
+    glm::dvec3 v2 = v0 + size * random.in_box(1);
+    if (i % 5 == 1) v2 = 1.5 * v0 + random.log_uniform(1e-15, 1e-3) * random.in_box(1);    // the eye near its plane
+    if (i % 5 == 2) v2 = 0.5 * (v0 + v1) + random.log_uniform(1e-12, 1e-3) * random.in_box(1);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::dvec3& v : {v0, v1, v2}) {
+      mesh.positions.push_back(v);
+      mesh.normals.push_back(random.direction());
+    }
+    for (std::uint32_t k = 0; k < 3; ++k) mesh.corners.push_back({first + k, i % 2 == 0 ? kNone : first + k});
+    mesh.faces.push_back({first, 3, material, 0, 0});
+  }
+  add_mesh(scene, mesh, {}, {});
+}
+
+Scene scene_of_surfaces(Random& random) {
+  Scene scene;
+  for (int i = 0; i < 3; ++i) {
+    Material material;
+    material.diffuse = glm::dvec3(0.5);
+    material.specular = glm::dvec3(i == 0 ? 0 : 0.5);
+    add_material(scene, material);
+  }
+  add_triangles(scene, random, 0);
+  add_triangles(scene, random, 1);
+  for (std::uint32_t i = 0; i < 8; ++i)   // the eye within some, or on them
+    add_sphere(scene, {random.in_box(2), i == 3 ? 1e-4 : random.log_uniform(0.1, 4), i % 3}, {});
+  add_sphere(scene, {{0, 0, -1}, 1, 2}, {});
+  for (std::uint32_t i = 0; i < 6; ++i) add_plane(scene, {random.in_box(2), random.direction(), i % 3}, {});
+  return scene;
+}
+
+bool same(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same(const ShadingBatch::Rgb& batch, std::size_t i, const Vec3<float>& v) {
+  return same(batch[0][i], v.x) && same(batch[1][i], v.y) && same(batch[2][i], v.z);
+}
+
+struct Outcome {
+  std::uint64_t entries = 0, unlike = 0, exact = 0;
+};
+
+// Compares a batch with the twin, and empties it.
+void check(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
+           const std::vector<Ray>& rays, const std::vector<Hit>& hits, Outcome& outcome) {
+  ShadingBatch out;
+  SignCounts counts, twin_counts;
+  surfaces_at(isa, scene, camera, tables, batch, out, counts);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Surface surface = surface_at(scene, rays[i], hits[i], twin_counts);
+    const ShadingPoint<float> point = shading_point(tables, surface, rays[i]);
+    const Vec3<double> ks = {point.specular.x, point.specular.y, point.specular.z};
+    const bool shiny = ks.x != 0 || ks.y != 0 || ks.z != 0;
+    outcome.unlike += !(same(out.high, i, point.high) && same(out.low, i, point.low) &&
+                        same(out.normal, i, point.normal) && out.material[i] == surface.material &&
+                        (!shiny || same(out.to_viewer, i, point.to_viewer)) &&
+                        (!batch.want_t || std::memcmp(&batch.t[i], &hits[i].t, sizeof(double)) == 0));
+  }
+  outcome.entries += hits.size();
+  outcome.unlike += counts.in_double != twin_counts.in_double || counts.exact != twin_counts.exact;
+  outcome.exact += counts.exact;
+  batch.size = 0;
+}
+
+// The samples of pictures from several eyes, every primitive that the ray meets, in batches of one kind.
+Outcome compared(Isa isa, bool has_t) {
+  Random random(70);
+  Outcome outcome;
+  for (std::uint64_t round = 0; round < 1 + tier_count("rays_per_case") / 4000; ++round) {
+    const Scene scene = scene_of_surfaces(random);
+    const ShadingTables tables = make_shading_tables(scene, needs_of(scene));
+    CameraSettings settings;
+    settings.eye = round % 2 == 0 ? glm::dvec3(0) : random.in_box(round % 4 == 1 ? 2 : 1e5);
+    settings.look_at = settings.eye + random.direction();
+    if (round % 4 == 3) settings.look_at = glm::dvec3(0);
+    settings.view_height = round % 4 == 3 ? 1e-4 : 2;
+    const Camera camera = make_camera(settings, 12, 9, 2);
+    for (std::size_t kind = 0; kind < 3; ++kind) {
+      SurfaceBatch batch;
+      batch.kind = static_cast<ObjectKind>(kind);
+      batch.has_t = has_t;
+      batch.want_t = true;
+      std::vector<Ray> rays;
+      std::vector<Hit> hits;
+      SignCounts counts;
+      for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
+        if (primitive_ref(scene, primitive).kind != batch.kind) continue;
+        for (int Y = 0; Y < camera.rows(); ++Y)
+          for (int X = 0; X < camera.columns(); ++X) {
+            const Ray ray{camera.eye, camera.direction(X, Y)};
+            const Hit hit = intersect(scene, primitive, ray, kRayStart, counts);
+            if (!hit.found()) continue;
+            batch.t[static_cast<std::size_t>(batch.size)] = hit.t;
+            batch.add(camera.column_factor(X), camera.row_factor(Y), primitive, 0);
+            rays.push_back(ray);
+            hits.push_back(hit);
+            // Sizes of all kinds: whole batches, and less.
+            if (!batch.full() && random.below(80) != 0) continue;
+            check(isa, scene, camera, tables, batch, rays, hits, outcome);
+            rays.clear();
+            hits.clear();
+          }
+      }
+      check(isa, scene, camera, tables, batch, rays, hits, outcome);
+    }
+  }
+  return outcome;
+}
+
+void check_isa(Isa isa) {
+  if (!machine_has(isa)) return skip_test(std::string("no ") + std::string(isa_name(isa)));
+  for (const bool has_t : {false, true}) {
+    const Outcome outcome = compared(isa, has_t);
+    CHECK(outcome.entries > 1000);
+    CHECK(outcome.unlike == 0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("surfaces in lanes: scalar") { check_isa(Isa::scalar); }
+TEST_CASE("surfaces in lanes: AVX2") { check_isa(Isa::avx2); }
+TEST_CASE("surfaces in lanes: AVX-512") { check_isa(Isa::avx512); }
