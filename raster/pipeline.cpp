@@ -45,7 +45,7 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
     SignCounts& counts = stats[static_cast<std::size_t>(thread)].signs;
     bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(prepared.scene, primitive, counts); });
     TileResolve& resolve = resolves[static_cast<std::size_t>(thread)];
-    resolve.shade(grid.tile(tile), depth, counts);
+    resolve.shade_hits(grid.tile(tile), depth, counts);
     resolve.write(frame);
   };
   parallel_for(grid.count(), threads, [&](int tile, int thread) {
@@ -76,7 +76,7 @@ RasterRecord explain(const Prepared& prepared, const Camera& camera, int X, int 
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive)
     depth.draw(scene, primitive, counts);
   TileResolve resolve(prepared, camera, RenderOptions{});
-  resolve.shade(pixel, depth, counts);
+  resolve.shade_hits(pixel, depth, counts);
 
   RasterRecord record;
   record.fragments = std::move(fragments.fragments);

@@ -6,7 +6,8 @@
 namespace sidelight::raster {
 namespace {
 
-constexpr LayerMask kParts = layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
+constexpr LayerMask kParts =
+    layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
 
 glm::vec3 rgb(const ShadingBatch::Rgb& from, std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
 
@@ -27,9 +28,6 @@ TileResolve::TileResolve(const Prepared& prepared, const Camera& camera, const R
 void TileResolve::begin(const Rect& pixels) {
   pixels_ = pixels;
   const auto samples = static_cast<std::size_t>(columns()) * static_cast<std::size_t>(n_ * pixels.height());
-  primitive_.resize(samples);
-  known_t_.resize(samples);
-  tests_.resize(samples);
   color_.resize(samples);
   if (want_t_) t_.resize(samples);
   if (want_normal_) normal_.resize(samples);
@@ -39,8 +37,7 @@ void TileResolve::begin(const Rect& pixels) {
 
 void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts) {
   begin(pixels);
-  std::copy_n(primitives, primitive_.size(), primitive_.begin());
-  std::fill(tests_.begin(), tests_.end(), 0);
+  primitive_ = primitives;
   shade_samples(false, counts);
 }
 
@@ -49,35 +46,58 @@ void TileResolve::shade_samples(bool known_t, SignCounts& counts) {
     batch.has_t = known_t;
     batch.want_t = want_t_;
   }
-  std::size_t sample = 0;
-  for (int Y = n_ * pixels_.y0; Y < n_ * pixels_.y1; ++Y) {
-    const double row = camera_.row_factor(Y);
-    for (int X = n_ * pixels_.x0; X < n_ * pixels_.x1; ++X, ++sample) {
-      if (primitive_[sample] == kNone)
-        set_background(sample);
-      else
-        add(primitive_[sample], row, X, sample, counts);
-    }
-  }
+  for (int Y = n_ * pixels_.y0; Y < n_ * pixels_.y1; ++Y) shade_row(Y, known_t, counts);
   for (SurfaceBatch& batch : batches_) flush(batch, counts);
 }
 
-void TileResolve::add(std::uint32_t primitive, double row, int X, std::size_t sample, SignCounts& counts) {
+// Runs of background, and of primitives of one kind.
+void TileResolve::shade_row(int Y, bool known_t, SignCounts& counts) {
+  constexpr int kBackground = -1;
   const Scene& scene = prepared_.scene;
-  const ObjectKind kind = scene.objects[scene.primitive_object[primitive]].kind;
-  SurfaceBatch& batch = batches_[static_cast<std::size_t>(kind)];
-  batch.t[static_cast<std::size_t>(batch.size)] = known_t_[sample];
-  batch.add(camera_.column_factor(X), row, primitive, static_cast<std::uint32_t>(sample));
-  if (batch.full()) flush(batch, counts);
+  std::uint32_t last_object = kNone;
+  int last_kind = kBackground;
+  const auto kind_of = [&](std::uint32_t primitive) {
+    if (primitive == kNone) return kBackground;
+    const std::uint32_t object = scene.primitive_object[primitive];
+    if (object != last_object) last_kind = static_cast<int>(scene.objects[object].kind);
+    last_object = object;
+    return last_kind;
+  };
+
+  const std::size_t start = index(n_ * pixels_.x0, Y), end = start + static_cast<std::size_t>(columns());
+  for (std::size_t first = start, last; first < end; first = last) {
+    const int kind = kind_of(primitive_[first]);
+    for (last = first + 1; last < end; ++last)
+      if (primitive_[last] != primitive_[last - 1] && kind_of(primitive_[last]) != kind) break;
+    if (kind == kBackground) {
+      set_background(first, last);
+      continue;
+    }
+    SurfaceBatch& batch = batches_[static_cast<std::size_t>(kind)];
+    for (std::size_t i = first; i < last;) {
+      const int count = std::min(batch.room(), static_cast<int>(last - i));
+      if (known_t) std::copy_n(&known_t_[i], count, &batch.t[static_cast<std::size_t>(batch.size)]);
+      batch.add(camera_.column_factor(n_ * pixels_.x0 + static_cast<int>(i - start)), camera_.row_factor(Y),
+                &primitive_[i], static_cast<std::uint32_t>(i), count);
+      i += static_cast<std::size_t>(count);
+      if (batch.room() == 0) flush(batch, counts);
+    }
+  }
 }
 
-void TileResolve::set_background(std::size_t sample) {
-  color_[sample] = glm::vec3(prepared_.scene.background);
-  if (want_t_) t_[sample] = 0;
-  if (want_normal_) normal_[sample] = glm::vec3(0);
+void TileResolve::set_background(std::size_t first, std::size_t last) {
+  const auto set = [=](auto& array, const auto& value) {
+    std::fill(array.begin() + static_cast<std::ptrdiff_t>(first),
+              array.begin() + static_cast<std::ptrdiff_t>(last), value);
+  };
+  const glm::vec3 background(prepared_.scene.background);
+  set(color_, background);
+  if (want_t_) set(t_, 0.0);
+  if (want_normal_) set(normal_, glm::vec3(0));
   if (!want_parts_) return;
-  for (Colors& part : parts_) part[sample] = glm::vec3(0);
-  parts_[0][sample] = color_[sample];   // booked as ambient light
+  set(parts_[0], background);  // booked as ambient light
+  set(parts_[1], glm::vec3(0));
+  set(parts_[2], glm::vec3(0));
 }
 
 void TileResolve::flush(SurfaceBatch& batch, SignCounts& counts) {
@@ -144,12 +164,11 @@ void TileResolve::write(Frame& frame) const {
   for_each_middle(frame.primitive_id, [&](std::size_t pixel, std::size_t sample) {
     frame.primitive_id[pixel] = primitive_[sample] == kNone ? 0 : 1 + primitive_[sample];
   });
-  for_each_middle(frame.normal, [&](std::size_t pixel, std::size_t sample) {
-    frame.normal[pixel] = normal_[sample];
-  });
+  for_each_middle(frame.normal,
+                  [&](std::size_t pixel, std::size_t sample) { frame.normal[pixel] = normal_[sample]; });
 
   // What is kept of all samples.
-  if (!frame.cost.empty())
+  if (!frame.cost.empty() && !tests_.empty())
     for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) {
       std::uint64_t tests = 0;
       for (std::size_t j = 0; j < n; ++j)

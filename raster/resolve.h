@@ -19,18 +19,23 @@ class TileResolve {
   TileResolve(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
   // The samples of `pixels`, of which the z-buffer keeps these primitives (row by row on the lattice; kNone: background).
+  // They must stay until the tile is written.
   void shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts);
-  // What a tile of hits holds: a DepthTile, or one with faults, whose depths need not be those of visibility.h.
+  // The same of what a tile of hits holds: a DepthTile, or one with faults, whose depths need not be those of visibility.h.
   template <class Tile>
-  void shade(const Rect& pixels, const Tile& tile, SignCounts& counts) {
+  void shade_hits(const Rect& pixels, const Tile& tile, SignCounts& counts) {
     begin(pixels);
+    kept_primitive_.resize(color_.size());
+    known_t_.resize(color_.size());
+    tests_.resize(color_.size());
     std::size_t i = 0;
     for (int Y = n_ * pixels.y0; Y < n_ * pixels.y1; ++Y)
       for (int X = n_ * pixels.x0; X < n_ * pixels.x1; ++X, ++i) {
-        primitive_[i] = tile.at(X, Y).primitive;
+        kept_primitive_[i] = tile.at(X, Y).primitive;
         known_t_[i] = tile.at(X, Y).t;
         tests_[i] = tile.tests(X, Y);
       }
+    primitive_ = kept_primitive_.data();
     shade_samples(true, counts);
   }
 
@@ -48,8 +53,8 @@ class TileResolve {
   }
   void begin(const Rect& pixels);
   void shade_samples(bool known_t, SignCounts& counts);
-  void add(std::uint32_t primitive, double row, int X, std::size_t sample, SignCounts& counts);
-  void set_background(std::size_t sample);
+  void shade_row(int Y, bool known_t, SignCounts& counts);
+  void set_background(std::size_t first, std::size_t last);
   void flush(SurfaceBatch& batch, SignCounts& counts);
   void write_means(const Colors& samples, const Frame& frame, Colors& pixels) const;
   template <class Write>
@@ -62,11 +67,12 @@ class TileResolve {
   bool want_parts_, want_normal_, want_t_;
   Rect pixels_;
   // Of each sample, row by row on the lattice. What is not wanted is empty, or holds what came before.
-  std::vector<std::uint32_t> primitive_, tests_;
+  const std::uint32_t* primitive_ = nullptr;
+  std::vector<std::uint32_t> kept_primitive_, tests_;
   std::vector<double> known_t_, t_;
   Colors color_, normal_;
-  std::array<Colors, 3> parts_;   // ambient, diffuse, specular
-  std::array<SurfaceBatch, 3> batches_;   // by ObjectKind
+  std::array<Colors, 3> parts_;          // ambient, diffuse, specular
+  std::array<SurfaceBatch, 3> batches_;  // by ObjectKind
   ShadingBatch shading_;
 };
 

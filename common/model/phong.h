@@ -72,8 +72,9 @@ F specular_power(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const F& shi
   return select<F>(seen, power, F(0));
 }
 
+// With shiny = false, for points whose ks is 0, no highlight is looked for: nothing but `highlight` differs.
 template <class F>
-LightTerm<F> light_term(const ShadingPoint<F>& point, const ShadingLight<Scalar<F>>& light) {
+LightTerm<F> light_term(const ShadingPoint<F>& point, const ShadingLight<Scalar<F>>& light, bool shiny = true) {
   const auto wide = [](const std::array<Scalar<F>, 3>& v) { return Vec3<F>{F(v[0]), F(v[1]), F(v[2])}; };
 
   // L, and how much of the light arrives: f(d)
@@ -91,8 +92,11 @@ LightTerm<F> light_term(const ShadingPoint<F>& point, const ShadingLight<Scalar<
   }
 
   const F cosine = dot(point.normal, to_light);
-  const Vec3<F> mirrored = (F(2) * cosine) * point.normal - to_light;
-  const F highlight = specular_power<F>(mirrored, point.to_viewer, point.shininess);
+  F highlight = F(0);
+  if (shiny) {
+    const Vec3<F> mirrored = (F(2) * cosine) * point.normal - to_light;
+    highlight = specular_power<F>(mirrored, point.to_viewer, point.shininess);
+  }
 
   LightTerm<F> term;
   term.cosine = cosine;

@@ -25,6 +25,12 @@ struct ShadingMaterialOf {
 };
 using ShadingMaterial = ShadingMaterialOf<float>;
 
+// Whether there can be a highlight, for which V is needed.
+inline bool is_shiny(const ShadingMaterial& material) {
+  const Vec3<float>& ks = material.specular;
+  return ks.x != 0 || ks.y != 0 || ks.z != 0;
+}
+
 template <class T>
 struct ShadingTablesOf {
   double length_scale = 1;   // a power of two that brings the scene's extent near 1, so that no square leaves float
@@ -49,7 +55,7 @@ struct ShadingBatch {
   using Rgb = std::array<Channel, 3>;
 
   int size = 0;
-  alignas(64) Rgb high{}, low{}, normal{}, to_viewer{};
+  alignas(64) Rgb high{}, low{}, normal{}, to_viewer{};   // V only where some material of the group is shiny
   std::array<std::uint32_t, static_cast<std::size_t>(kCapacity)> material{};   // into ShadingTables::materials
   // Results, c1 included: R = local (ka Ia + sum T_i), and its three parts, if asked for.
   alignas(64) Rgb unshadowed{}, ambient_layer{}, diffuse_layer{}, specular_layer{};

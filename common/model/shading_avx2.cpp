@@ -6,7 +6,7 @@ namespace sidelight {
 
 static_assert(kLanes<stdx::native_simd<float>> == 8);
 
-void shade_avx2(const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
+[[gnu::flatten]] void shade_avx2(const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
   shade_batch<stdx::native_simd<float>>(tables, batch, with_parts);
 }
 

@@ -24,31 +24,36 @@ template <class F>
 struct MaterialLanes {
   Vec3<F> ambient, diffuse, specular, local;
   F shininess;
+  bool shiny = false;   // any of them
 };
 
 template <class F>
 MaterialLanes<F> load_materials(const ShadingTables& tables, const ShadingBatch& batch, std::size_t i) {
-  const auto lanes_of = [&](const auto& number) {   // number(material) of each lane's material
-    if constexpr (kLanes<F> == 1)
-      return number(tables.materials[batch.material[i]]);
-    else
-      return F([&](auto lane) { return number(tables.materials[batch.material[i + lane]]); });
-  };
-  const std::uint32_t* material = &batch.material[i];
-  bool one = true;
-  for (int lane = 1; lane < kLanes<F>; ++lane) one = one && material[lane] == material[0];
-  const auto number = [&](const auto& of) { return one ? F(of(tables.materials[*material])) : F(lanes_of(of)); };
-  const auto rgb = [&](Vec3<float> ShadingMaterial::*color) {
-    return Vec3<F>{number([=](const ShadingMaterial& m) { return (m.*color).x; }),
-                   number([=](const ShadingMaterial& m) { return (m.*color).y; }),
-                   number([=](const ShadingMaterial& m) { return (m.*color).z; })};
+  const auto material = [&](int lane) -> const ShadingMaterial& {
+    return tables.materials[batch.material[i + static_cast<std::size_t>(lane)]];
   };
   MaterialLanes<F> out;
+  bool one = true;
+  for (int lane = 0; lane < kLanes<F>; ++lane) {
+    one = one && &material(lane) == &material(0);
+    out.shiny = out.shiny || is_shiny(material(lane));
+  }
+  const auto lanes = [&](const auto& number) {
+    if (one) return F(number(material(0)));
+    std::array<float, static_cast<std::size_t>(kLanes<F>)> values;
+    for (int lane = 0; lane < kLanes<F>; ++lane) values[static_cast<std::size_t>(lane)] = number(material(lane));
+    return load<F>(values.data());
+  };
+  const auto rgb = [&](Vec3<float> ShadingMaterial::*color) {
+    return Vec3<F>{lanes([=](const ShadingMaterial& m) { return (m.*color).x; }),
+                   lanes([=](const ShadingMaterial& m) { return (m.*color).y; }),
+                   lanes([=](const ShadingMaterial& m) { return (m.*color).z; })};
+  };
   out.ambient = rgb(&ShadingMaterial::ambient);
   out.diffuse = rgb(&ShadingMaterial::diffuse);
   out.specular = rgb(&ShadingMaterial::specular);
   out.local = rgb(&ShadingMaterial::local);
-  out.shininess = number([](const ShadingMaterial& m) { return m.shininess; });
+  out.shininess = lanes([](const ShadingMaterial& m) { return m.shininess; });
   return out;
 }
 
@@ -70,7 +75,7 @@ void shade_lanes(const ShadingTables& tables, ShadingBatch& batch, bool with_par
   const Vec3<F> ambient = ambient_term<F>(point, {F(light.x), F(light.y), F(light.z)});
   Vec3<F> sum = ambient, diffuse{}, specular{};
   for (const ShadingLight<float>& each : tables.lights) {
-    const LightTerm<F> term = light_term<F>(point, each);
+    const LightTerm<F> term = light_term<F>(point, each, material.shiny);
     sum = sum + term.total();
     diffuse = diffuse + term.diffuse;
     specular = specular + term.specular;

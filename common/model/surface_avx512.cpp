@@ -6,7 +6,7 @@ namespace sidelight {
 
 static_assert(kLanes<stdx::native_simd<double>> == 8);
 
-void surfaces_avx512(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out) {
+[[gnu::flatten]] void surfaces_avx512(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out) {
   surfaces_of_batch<stdx::native_simd<double>>(view, batch, out);
 }
 

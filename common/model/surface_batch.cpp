@@ -18,11 +18,6 @@ void put(SurfaceBatch::Vectors& to, std::size_t i, const glm::dvec3& v) {
   to[2][i] = v.z;
 }
 
-bool shiny(const ShadingMaterial& material) {
-  const Vec3<float>& ks = material.specular;
-  return ks.x != 0 || ks.y != 0 || ks.z != 0;
-}
-
 // What the kernel reads of one primitive, into entry i; its material.
 std::uint32_t fetch(const Scene& scene, SurfaceBatch& batch, Group& group, std::size_t i) {
   const std::uint32_t index = primitive_ref(scene, batch.primitive[i]).index;
@@ -64,16 +59,18 @@ void fetch_group(const Scene& scene, const ShadingTables& tables, SurfaceBatch& 
   Group& group = batch.group[first / kGroup];
   const std::uint32_t* primitive = &batch.primitive[first];
   group = {};
-  group.one = std::all_of(primitive + 1, primitive + kGroup, [&](std::uint32_t p) { return p == *primitive; });
+  std::uint32_t unlike = 0;
+  for (std::size_t i = 1; i < kGroup; ++i) unlike |= primitive[i] ^ primitive[0];
+  group.one = unlike == 0;
   if (group.one) {
     const std::uint32_t material = fetch(scene, batch, group, first);
-    group.shiny = shiny(tables.materials[material]);
+    group.shiny = is_shiny(tables.materials[material]);
     std::fill_n(&out.material[first], kGroup, material);
     return;
   }
   for (std::size_t i = first; i < first + kGroup; ++i) {
     out.material[i] = fetch(scene, batch, group, i);
-    group.shiny |= shiny(tables.materials[out.material[i]]);
+    group.shiny |= is_shiny(tables.materials[out.material[i]]);
   }
 }
 
@@ -82,7 +79,7 @@ void ask_again(const Scene& scene, const Camera& camera, const ShadingTables& ta
                std::size_t i, ShadingBatch& out, SignCounts& counts) {
   const Ray ray{camera.eye, (batch.column[i] * camera.right + batch.row[i] * camera.up) + camera.axis_part()};
   Hit hit{batch.t[i], batch.primitive[i]};
-  SignCounts not_again;   // the z-buffer has counted this test
+  SignCounts not_again;  // the z-buffer has counted this test
   if (!batch.has_t) hit = intersect(scene, hit.primitive, ray, kRayStart, not_again);
   batch.t[i] = hit.t;
   const Surface surface = surface_at(scene, ray, hit, counts);
@@ -91,8 +88,8 @@ void ask_again(const Scene& scene, const Camera& camera, const ShadingTables& ta
 
 }  // namespace
 
-void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
-                 ShadingBatch& out, SignCounts& counts) {
+void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables,
+                 SurfaceBatch& batch, ShadingBatch& out, SignCounts& counts) {
   out.size = batch.size;
   if (batch.size == 0) return;
   pad(batch);
@@ -101,17 +98,25 @@ void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const Shadin
 
   const SurfaceView view{vec(camera.eye), vec(camera.right), vec(camera.up), vec(camera.axis_part()),
                          tables.length_scale};
+  batch.any_doubtful = false;
   switch (isa) {
-    case Isa::scalar: surfaces_scalar(view, batch, out); break;
-    case Isa::avx2: surfaces_avx2(view, batch, out); break;
-    case Isa::avx512: surfaces_avx512(view, batch, out); break;
+    case Isa::scalar:
+      surfaces_scalar(view, batch, out);
+      break;
+    case Isa::avx2:
+      surfaces_avx2(view, batch, out);
+      break;
+    case Isa::avx512:
+      surfaces_avx512(view, batch, out);
+      break;
   }
-  for (std::size_t i = 0; i < size; ++i) {
-    if (batch.doubtful[i] != 0)
+  std::uint64_t again = 0;
+  for (std::size_t i = 0; batch.any_doubtful && i < size; ++i)
+    if (batch.doubtful[i] != 0) {
       ask_again(scene, camera, tables, batch, i, out, counts);
-    else if (batch.kind == ObjectKind::mesh)
-      ++counts.in_double;   // the side that is seen
-  }
+      ++again;
+    }
+  if (batch.kind == ObjectKind::mesh) counts.in_double += size - again;  // the sides that are seen
 }
 
 }  // namespace sidelight

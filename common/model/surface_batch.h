@@ -19,19 +19,24 @@ struct SurfaceBatch {
 
   ObjectKind kind = ObjectKind::mesh;
   int size = 0;
-  alignas(64) Channel<double> column, row;   // Camera::column_factor, row_factor
-  alignas(64) Channel<double> t;             // depth, where it is known; else a result, where it is asked for
-  alignas(64) Channel<std::uint32_t> primitive, sample;   // `sample` is the caller's own number
-  bool has_t = false;   // t is given
+  alignas(64) Channel<double> column, row;  // Camera::column_factor, row_factor
+  alignas(64) Channel<double> t;            // depth, where it is known; else a result, where it is asked for
+  alignas(64) Channel<std::uint32_t> primitive, sample;  // `sample` is the caller's own number
+  bool has_t = false;                                    // t is given
   bool want_t = false;
 
-  bool full() const { return size == kCapacity; }
-  void add(double column_factor, double row_factor, std::uint32_t of_primitive, std::uint32_t own_number) {
-    const auto i = static_cast<std::size_t>(size++);
-    column[i] = column_factor;
-    row[i] = row_factor;
-    primitive[i] = of_primitive;
-    sample[i] = own_number;
+  int room() const { return kCapacity - size; }
+  // `count` <= room() neighbours in a row, from the one with this column factor and number.
+  void add(double first_column, double row_factor, const std::uint32_t* primitives,
+           std::uint32_t first_number, int count) {
+    for (int k = 0; k < count; ++k) {
+      const auto i = static_cast<std::size_t>(size + k);
+      column[i] = first_column + 2 * k;
+      row[i] = row_factor;
+      primitive[i] = primitives[k];
+      sample[i] = first_number + static_cast<std::uint32_t>(k);
+    }
+    size += count;
   }
 
   // What the kernel reads of the scene, entry by entry; of a group with one primitive, at the group's first entry only.
@@ -39,17 +44,19 @@ struct SurfaceBatch {
   // point and normal.
   alignas(64) std::array<Vectors, 6> vector;
   struct Group {
-    bool one = false;      // all of one primitive
-    bool flat = false;     // some triangle has no vertex normals
-    bool smooth = false;   // some triangle has
-    bool shiny = false;    // V is asked for
+    bool one = false;     // all of one primitive
+    bool flat = false;    // some triangle has no vertex normals
+    bool smooth = false;  // some triangle has
+    bool shiny = false;   // V is asked for
   };
   std::array<Group, static_cast<std::size_t>(kCapacity / kGroup)> group;
-  alignas(64) Channel<double> doubtful;   // a result: not 0 where the lanes cannot be sure
+  // Results: not 0 where the lanes cannot be sure; whether that is so anywhere.
+  alignas(64) Channel<double> doubtful;
+  bool any_doubtful = false;
 };
 
 // Fills entries [0, size) of `out`, but facing, and of batch.t. The same bytes for every isa.
-void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
-                 ShadingBatch& out, SignCounts& counts);
+void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables,
+                 SurfaceBatch& batch, ShadingBatch& out, SignCounts& counts);
 
 }  // namespace sidelight

@@ -13,8 +13,8 @@
 namespace sidelight {
 
 struct SurfaceView {
-  Vec3<double> eye, right, up, axis;   // of the camera
-  double length_scale = 1;             // of the shading tables
+  Vec3<double> eye, right, up, axis;  // of the camera
+  double length_scale = 1;            // of the shading tables
 };
 
 template <class F>
@@ -52,14 +52,22 @@ class SurfaceLanes {
     const auto& channel = batch_.vector[vector][component];
     return group().one ? F(channel[group_]) : load<F>(&channel[first_]);
   }
-  Vec3<F> scene_vector(std::size_t i) const { return {scene_number(i, 0), scene_number(i, 1), scene_number(i, 2)}; }
+  Vec3<F> scene_vector(std::size_t i) const {
+    return {scene_number(i, 0), scene_number(i, 1), scene_number(i, 2)};
+  }
   Vec3<F> direction(const SurfaceView& view) const {
     const F column = load<F>(&batch_.column[first_]), row = load<F>(&batch_.row[first_]);
     return (column * wide<F>(view.right) + row * wide<F>(view.up)) + wide<F>(view.axis);
   }
   F given_t() const { return load<F>(&batch_.t[first_]); }
   void put_t(const F& t) { store(t, &batch_.t[first_]); }
-  void put_doubt(const Mask<F>& sure) { store(select<F>(sure, F(0), F(1)), &batch_.doubtful[first_]); }
+  void put_doubt(const Mask<F>& sure) {
+    store(select<F>(sure, F(0), F(1)), &batch_.doubtful[first_]);
+    if constexpr (kLanes<F> == 1)
+      batch_.any_doubtful |= !sure;
+    else
+      batch_.any_doubtful |= !stdx::all_of(sure);
+  }
 
  private:
   SurfaceBatch& batch_;
@@ -92,9 +100,9 @@ template <class F>
 struct TriangleLanes {
   Vec3<F> v0, e1, e2;
   std::array<Vec3<F>, 3> edge, normal;
-  Vec3<F> facing;       // Nv; not of unit length unless a triangle of the group is flat
-  F facing_size;        // |x| + |y| + |z| of it
-  F lengths2;           // |a_0|² + |a_1|² + |a_2|²
+  Vec3<F> facing;  // Nv; not of unit length unless a triangle of the group is flat
+  F facing_size;   // |x| + |y| + |z| of it
+  F lengths2;      // |a_0|² + |a_1|² + |a_2|²
   Vec3<F> n;
   F a0_n, depth_bound;  // lengths2 (|e1|² + |e2|²)
   Mask<F> sure, sure_depth;
@@ -127,7 +135,8 @@ TriangleLanes<F> triangle_lanes(const SurfaceLanes<F>& lanes, const Vec3<F>& eye
   }
   out.facing = select<F>(side < F(0), outward, -outward);
   out.facing_size = size(out.facing);
-  if (lanes.group().smooth) out.normal = {lanes.scene_vector(3), lanes.scene_vector(4), lanes.scene_vector(5)};
+  if (lanes.group().smooth)
+    out.normal = {lanes.scene_vector(3), lanes.scene_vector(4), lanes.scene_vector(5)};
 
   if (want_t) {
     out.a0_n = dot(a0, out.n);
@@ -161,8 +170,8 @@ Vec3<F> triangle_normal(const TriangleLanes<F>& triangle, const std::array<F, 3>
 // d . weight <= |d| sum |a_i| |a_j| <= |d| S, and 6 u of it may be 2^-20 |sum|.
 // Depth: |d| 4 sqrt(S T) <= 2^31 |d . n| iff |d|² S T <= 2^58 (d . n)²; 2^57 for the rounding of the bound.
 template <class F>
-void triangle_surfaces(const SurfaceView& view, const TriangleLanes<F>& triangle, SurfaceBatch& batch, ShadingBatch& out,
-                       std::size_t i) {
+void triangle_surfaces(const SurfaceView& view, const TriangleLanes<F>& triangle, SurfaceBatch& batch,
+                       ShadingBatch& out, std::size_t i) {
   SurfaceLanes<F> lanes(batch, i);
   const Vec3<F> d = lanes.direction(view);
   std::array<F, 3> e{dot(d, triangle.edge[0]), dot(d, triangle.edge[1]), dot(d, triangle.edge[2])};
@@ -171,7 +180,8 @@ void triangle_surfaces(const SurfaceView& view, const TriangleLanes<F>& triangle
   const Mask<F> negative = all < F(0);
   for (F& each : e) each = select<F>((each < F(0)) != negative, F(0), each);
   const F sum = (e[0] + e[1]) + e[2];
-  const std::array<F, 3> barycentric{e[0] / sum, e[1] / sum, e[2] / sum};
+  const F first = lanes.group().smooth ? e[0] / sum : F(0);  // only the normal asks for it
+  const std::array<F, 3> barycentric{first, e[1] / sum, e[2] / sum};
 
   const Vec3<F> point = (triangle.v0 + barycentric[1] * triangle.e1) + barycentric[2] * triangle.e2;
   const Vec3<F> normal = triangle_normal(triangle, barycentric, lanes.group(), sure);
@@ -189,7 +199,7 @@ void triangle_surfaces(const SurfaceView& view, const TriangleLanes<F>& triangle
 template <class F>
 void surfaces_of_triangles(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out) {
   TriangleLanes<F> triangle;
-  std::uint32_t last = kNone;   // the one triangle that it is set up for
+  std::uint32_t last = kNone;  // the one triangle that it is set up for
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>) {
     const SurfaceLanes<F> lanes(batch, i);
     const std::uint32_t one = lanes.group().one ? batch.primitive[i] : kNone;
@@ -215,7 +225,8 @@ void sphere_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch&
   const Mask<F> meets = discriminant >= F(0);
   const F root = square_root(dd * select<F>(meets, discriminant, F(0)));
   const F q = b + select<F>(b < F(0), -root, root);
-  const Mask<F> apart = q != F(0);   // also where b is 0 of any sign, but for its own sign: then it is doubtful
+  const Mask<F> apart =
+      q != F(0);  // also where b is 0 of any sign, but for its own sign: then it is doubtful
   const F t0 = (dot(f, f) - r2) / select<F>(apart, q, F(1));
   const F t1 = q / dd;
   const F low = select<F>(t0 <= t1, t0, t1), high = select<F>(t0 <= t1, t1, t0);

@@ -23,7 +23,8 @@ void add_triangles(Scene& scene, Random& random, std::uint32_t material) {
     const double size = i % 3 == 0 ? random.log_uniform(1e-7, 1) : 2;
     const glm::dvec3 v1 = v0 + size * random.in_box(1);
     glm::dvec3 v2 = v0 + size * random.in_box(1);
-    if (i % 5 == 1) v2 = 1.5 * v0 + random.log_uniform(1e-15, 1e-3) * random.in_box(1);    // the eye near its plane
+    if (i % 5 == 1)
+      v2 = 1.5 * v0 + random.log_uniform(1e-15, 1e-3) * random.in_box(1);  // the eye near its plane
     if (i % 5 == 2) v2 = 0.5 * (v0 + v1) + random.log_uniform(1e-12, 1e-3) * random.in_box(1);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const glm::dvec3& v : {v0, v1, v2}) {
@@ -46,7 +47,7 @@ Scene scene_of_surfaces(Random& random) {
   }
   add_triangles(scene, random, 0);
   add_triangles(scene, random, 1);
-  for (std::uint32_t i = 0; i < 8; ++i)   // the eye within some, or on them
+  for (std::uint32_t i = 0; i < 8; ++i)  // the eye within some, or on them
     add_sphere(scene, {random.in_box(2), i == 3 ? 1e-4 : random.log_uniform(0.1, 4), i % 3}, {});
   add_sphere(scene, {{0, 0, -1}, 1, 2}, {});
   for (std::uint32_t i = 0; i < 6; ++i) add_plane(scene, {random.in_box(2), random.direction(), i % 3}, {});
@@ -63,8 +64,9 @@ struct Outcome {
 };
 
 // Compares a batch with the twin, and empties it.
-void check(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
-           const std::vector<Ray>& rays, const std::vector<Hit>& hits, Outcome& outcome) {
+void check(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables,
+           SurfaceBatch& batch, const std::vector<Ray>& rays, const std::vector<Hit>& hits,
+           Outcome& outcome) {
   ShadingBatch out;
   SignCounts counts, twin_counts;
   surfaces_at(isa, scene, camera, tables, batch, out, counts);
@@ -73,10 +75,10 @@ void check(Isa isa, const Scene& scene, const Camera& camera, const ShadingTable
     const ShadingPoint<float> point = shading_point(tables, surface, rays[i]);
     const Vec3<double> ks = {point.specular.x, point.specular.y, point.specular.z};
     const bool shiny = ks.x != 0 || ks.y != 0 || ks.z != 0;
-    outcome.unlike += !(same(out.high, i, point.high) && same(out.low, i, point.low) &&
-                        same(out.normal, i, point.normal) && out.material[i] == surface.material &&
-                        (!shiny || same(out.to_viewer, i, point.to_viewer)) &&
-                        (!batch.want_t || std::memcmp(&batch.t[i], &hits[i].t, sizeof(double)) == 0));
+    outcome.unlike +=
+        !(same(out.high, i, point.high) && same(out.low, i, point.low) && same(out.normal, i, point.normal) &&
+          out.material[i] == surface.material && (!shiny || same(out.to_viewer, i, point.to_viewer)) &&
+          (!batch.want_t || std::memcmp(&batch.t[i], &hits[i].t, sizeof(double)) == 0));
   }
   outcome.entries += hits.size();
   outcome.unlike += counts.in_double != twin_counts.in_double || counts.exact != twin_counts.exact;
@@ -113,11 +115,11 @@ Outcome compared(Isa isa, bool has_t) {
             const Hit hit = intersect(scene, primitive, ray, kRayStart, counts);
             if (!hit.found()) continue;
             batch.t[static_cast<std::size_t>(batch.size)] = hit.t;
-            batch.add(camera.column_factor(X), camera.row_factor(Y), primitive, 0);
+            batch.add(camera.column_factor(X), camera.row_factor(Y), &primitive, 0, 1);
             rays.push_back(ray);
             hits.push_back(hit);
             // Sizes of all kinds: whole batches, and less.
-            if (!batch.full() && random.below(80) != 0) continue;
+            if (batch.room() > 0 && random.below(80) != 0) continue;
             check(isa, scene, camera, tables, batch, rays, hits, outcome);
             rays.clear();
             hits.clear();
