@@ -10,6 +10,7 @@
 #include "common/scene/obj.h"
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/dyadic_scenes.h"
 #include "tests/support/exact_picture.h"
 #include "tests/support/scenes.h"
 
@@ -19,50 +20,23 @@ using namespace sidelight::testing;
 
 namespace {
 
-PolygonMesh placed(PolygonMesh mesh, const glm::dvec3& center, double radius) {
-  for (glm::dvec3& p : mesh.positions) p = snapped(center + radius * p);
-  return mesh;
-}
-
-void add_ground(Scene& scene) {
-  add_mesh(scene, mesh_of({{-12, 0, 12}, {12, 0, 12}, {12, 0, -12}, {-12, 0, -12}}, {{0, 1, 2}, {0, 2, 3}}), {}, {});
-}
-
 // Rows and columns of a star sphere of about so many triangles: twice as many columns as rows, two triangles a cell.
 std::uint32_t rows_for(double triangles) { return static_cast<std::uint32_t>(std::max(4.0, std::sqrt(triangles / 4))); }
 
-Scene spheres_on_ground(std::uint64_t triangles) {
-  Random random(20);
+Scene scene_of_all(const std::vector<PolygonMesh>& meshes) {
   Scene scene = empty_scene();
-  const std::uint32_t rows = rows_for(static_cast<double>(triangles) / 10);
-  for (int i = 0; i < 10; ++i) {
-    const double radius = snapped(random.uniform(0.4, 1.1));
-    const glm::dvec3 center{random.uniform(-3, 3), radius, random.uniform(-3, 2)};
-    add_mesh(scene,
-             placed(star_sphere(rows, 2 * rows, 0.05, 100 + static_cast<std::uint64_t>(i)), center, radius),
-             {}, {});
-  }
-  add_ground(scene);
+  for (const PolygonMesh& mesh : meshes) add_mesh(scene, mesh, {}, {});
   return scene;
 }
 
-// The largest side of its box becomes 2, and the box's middle stands over the ground's.
-PolygonMesh fitted(PolygonMesh mesh) {
-  glm::dvec3 low(INFINITY), high(-INFINITY);
-  for (const glm::dvec3& p : mesh.positions) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const glm::dvec3 sides = high - low;
-  const double scale = 2 / std::max({sides.x, sides.y, sides.z});
-  return placed(std::move(mesh), glm::dvec3{0, 1, 2} - scale * (low + high) / 2.0, scale);
+Scene spheres_on_ground(std::uint64_t triangles) {
+  const std::uint32_t rows = rows_for(static_cast<double>(triangles) / 10);
+  std::vector<PolygonMesh> meshes = ten_spheres(rows, 2 * rows);
+  meshes.push_back(ground());
+  return scene_of_all(meshes);
 }
-Scene scan_on_ground(const PolygonMesh& scan) {
-  Scene scene = empty_scene();
-  add_mesh(scene, fitted(scan), {}, {});
-  add_ground(scene);
-  return scene;
-}
+
+Scene scan_on_ground(const PolygonMesh& scan) { return scene_of_all({fitted(scan), ground()}); }
 
 // Rays d = (i/2, j/2, -2H), i and j odd, from a height of 1 meet the ground where x = i/|j| and z = 7 - 4H/|j|: on its
 // diagonal x = -z for every i = 4H - 7|j|.
@@ -71,14 +45,6 @@ CameraSettings straight_ahead() {
   settings.eye = {0, 1, 7};
   settings.look_at = {0, 1, 0};
   settings.view_height = 0.5;
-  return settings;
-}
-
-CameraSettings any_way() {
-  CameraSettings settings;
-  settings.eye = snapped(glm::dvec3(0.7, 2.6, 7.9));
-  settings.look_at = {0.1, 0.6, 0.2};
-  settings.view_height = 0.68;
   return settings;
 }
 

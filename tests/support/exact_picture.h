@@ -12,13 +12,13 @@
 // their quotient by 1 u (n itself is exact here, its products having fewer than 53 bits).
 #pragma once
 
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "common/picture/frame.h"
@@ -47,6 +47,11 @@ class ExactPicture {
   }
 
   const Sample& at(int X, int Y) const { return samples_[count(Y) * count(camera_.columns()) + count(X)]; }
+
+  // The depth t of the nearest, if any.
+  double nearest_depth(int X, int Y) const {
+    return static_cast<double>(at(X, Y).depth * static_cast<Quad>(scale_d_) / static_cast<Quad>(scale_a_));
+  }
 
   // Whether a renderer may show `primitive` (kNone: the background) at this sample.
   bool allows(int X, int Y, std::uint32_t primitive) const {
@@ -129,9 +134,9 @@ class ExactPicture {
       for (int X = 0; X < camera_.columns(); ++X) widen(camera_.direction(X, Y), low_d, high_d);
     // A difference has one bit more than its terms; a determinant three bits more than a product of three.
     const int bits_a = high_a - low_a + 1, bits_d = high_d - low_d;
-    REQUIRE_MESSAGE(std::max(3 * bits_a, 2 * bits_a + bits_d) + 3 <= 127,
-                    "the scene needs more than 128 bits: ", bits_a, " a coordinate, ", bits_d,
-                    " a direction");
+    if (std::max(3 * bits_a, 2 * bits_a + bits_d) + 3 > 127)
+      throw std::runtime_error("the scene needs more than 128 bits: " + std::to_string(bits_a) +
+                               " a coordinate, " + std::to_string(bits_d) + " a direction");
     scale_a_ = std::exp2(-low_a);
     scale_d_ = std::exp2(-low_d);
   }
