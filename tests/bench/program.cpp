@@ -36,7 +36,7 @@ std::string table(const std::vector<std::vector<std::string>>& lines) {
 std::string times_words(double ratio) { return fmt::format("{:.2f}", ratio); }
 
 std::string verdict_words(double ratio, double least) {
-  return least == 0 ? "-" : fmt::format("{} ({})", ratio >= least ? "yes" : "no", least);
+  return least == 0 ? "-" : fmt::format("{} ({:.3g})", ratio >= least ? "yes" : "no", least);
 }
 
 double machine_load() {

@@ -42,11 +42,7 @@ struct Result {
   RasterRace race;
 };
 
-// How many times as fast one core: the ratio of median processor times.
-double ratio(const RasterRow& row) {
-  return row.threads == 1 ? row.llvmpipe_cpu.median / row.sidelight_cpu.median
-                          : row.llvmpipe_wall.median / row.sidelight_wall.median;
-}
+double ratio(const RasterRow& row) { return times_faster(row.llvmpipe, row.sidelight, row.threads); }
 double bar(const Entry& entry, const RasterRow& row) {
   return row.threads == 1 && row.size == kBarSize ? entry.least : 0;
 }
@@ -54,9 +50,9 @@ double bar(const Entry& entry, const RasterRow& row) {
 void add_times(Lines& lines, const Result& result) {
   for (const RasterRow& row : result.race.rows)
     lines.push_back({result.entry.name, std::to_string(result.race.triangles), row.size.text(),
-                     std::to_string(row.threads), spread_words(row.llvmpipe_cpu),
-                     spread_words(row.sidelight_cpu), spread_words(row.llvmpipe_wall),
-                     spread_words(row.sidelight_wall), times_words(ratio(row)),
+                     std::to_string(row.threads), spread_words(row.llvmpipe.cpu),
+                     spread_words(row.sidelight.cpu), spread_words(row.llvmpipe.wall),
+                     spread_words(row.sidelight.wall), times_words(ratio(row)),
                      verdict_words(ratio(row), bar(result.entry, row)),
                      bar(result.entry, row) > 0 ? fmt::format("{}", result.entry.aim) : "-"});
 }
@@ -73,15 +69,15 @@ void for_each_scaling(const RasterRace& race, const Visit& visit) {
   }
 }
 double scaling_bar(const RasterRow& one, const RasterRow& more) {
-  return more.threads == 2 && one.sidelight_wall.median >= kScalingFrom_ms ? kScalingBar : 0;
+  return more.threads == 2 && one.sidelight.wall.median >= kScalingFrom_ms ? kScalingBar : 0;
 }
 
 void add_scaling(Lines& lines, const Result& result) {
   for_each_scaling(result.race, [&](const RasterRow& one, const RasterRow& more) {
-    const double own = one.sidelight_wall.median / more.sidelight_wall.median;
+    const double own = one.sidelight.wall.median / more.sidelight.wall.median;
     lines.push_back({result.entry.name, more.size.text(), std::to_string(more.threads),
-                     times_words(one.llvmpipe_wall.median / more.llvmpipe_wall.median), times_words(own),
-                     times_words(one.sidelight_wall.min / more.sidelight_wall.min),
+                     times_words(one.llvmpipe.wall.median / more.llvmpipe.wall.median), times_words(own),
+                     times_words(one.sidelight.wall.min / more.sidelight.wall.min),
                      verdict_words(own, scaling_bar(one, more))});
   });
 }
@@ -130,8 +126,8 @@ Json json_of(const Result& result) {
     };
     Json entry{{"size", row.size.text()},
                {"threads", row.threads},
-               {"llvmpipe", side(row.llvmpipe_cpu, row.llvmpipe_wall)},
-               {"sidelight", side(row.sidelight_cpu, row.sidelight_wall)},
+               {"llvmpipe", side(row.llvmpipe.cpu, row.llvmpipe.wall)},
+               {"sidelight", side(row.sidelight.cpu, row.sidelight.wall)},
                {"times_faster", ratio(row)}};
     const double least = bar(result.entry, row);
     if (least > 0)
@@ -141,8 +137,8 @@ Json json_of(const Result& result) {
   for_each_scaling(result.race, [&](const RasterRow& one, const RasterRow& more) {
     json["scaling"].push_back({{"size", more.size.text()},
                                {"threads", more.threads},
-                               {"llvmpipe", one.llvmpipe_wall.median / more.llvmpipe_wall.median},
-                               {"sidelight", one.sidelight_wall.median / more.sidelight_wall.median}});
+                               {"llvmpipe", one.llvmpipe.wall.median / more.llvmpipe.wall.median},
+                               {"sidelight", one.sidelight.wall.median / more.sidelight.wall.median}});
   });
   for (const RasterVerdict& v : result.race.verdicts)
     json["pixels"].push_back({{"size", v.size.text()},

@@ -4,13 +4,11 @@
 #include <glm/common.hpp>
 #include <memory>
 
-#include "common/clock.h"
 #include "raster/raster.h"
 #include "tests/bench/llvmpipe.h"
 #include "tests/bench/scenes.h"
 #include "tests/bench/worker.h"
 #include "tests/support/exact_picture.h"
-#include "viewer/bench/front.h"
 
 namespace sidelight::bench {
 namespace {
@@ -22,20 +20,10 @@ struct Question {
   Size size;
   int frame = 0;
 };
-struct Cost {
-  double cpu_ms = 0, wall_ms = 0;
-};
 struct Answer {
   Cost llvmpipe, sidelight;
   RasterVerdict verdict;
 };
-
-template <class Work>
-Cost cost_of(const Work& work) {
-  const double cpu = cpu_ms(), wall = wall_ms();
-  work();
-  return {cpu_ms() - cpu, wall_ms() - wall};
-}
 
 Judgement judge(const ExactPicture& exact, const Camera& camera, const Frame& frame) {
   Judgement judgement;
@@ -129,14 +117,12 @@ std::vector<RasterRow> race_at(Size size, const RasterPlan& plan,
     }
   std::vector<RasterRow> rows;
   for (std::size_t w = 0; w < workers.size(); ++w) {
-    const auto spread = [&](Cost Answer::*side, double Cost::*ms) {
-      std::vector<double> values;
-      for (const Answer& answer : answers[w]) values.push_back(answer.*side.*ms);
-      return spread_of(values);
-    };
-    rows.push_back({size, plan.threads[w], spread(&Answer::llvmpipe, &Cost::cpu_ms),
-                    spread(&Answer::llvmpipe, &Cost::wall_ms), spread(&Answer::sidelight, &Cost::cpu_ms),
-                    spread(&Answer::sidelight, &Cost::wall_ms)});
+    std::vector<Cost> theirs, ours;
+    for (const Answer& answer : answers[w]) {
+      theirs.push_back(answer.llvmpipe);
+      ours.push_back(answer.sidelight);
+    }
+    rows.push_back({size, plan.threads[w], spread_of_costs(theirs), spread_of_costs(ours)});
   }
   return rows;
 }

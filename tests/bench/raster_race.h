@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/scene/scene.h"
+#include "tests/bench/cost.h"
 #include "tests/bench/program.h"
-#include "viewer/bench/result.h"
 
 namespace sidelight::bench {
 
@@ -28,7 +28,7 @@ struct Judgement {
 struct RasterRow {
   Size size;
   int threads = 0;
-  Spread llvmpipe_cpu, llvmpipe_wall, sidelight_cpu, sidelight_wall;  // ms a frame
+  CostSpread llvmpipe, sidelight;  // of a frame
 };
 
 struct RasterVerdict {

@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/scenes.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <glm/geometric.hpp>
-#include <map>
 #include <sstream>
 
 #include "common/error.h"
 #include "common/scene/obj.h"
+#include "tests/bench/shapes.h"
 #include "tests/support/dyadic_scenes.h"
 
 namespace sidelight::bench {
 namespace {
 
 using glm::dvec3;
-
-Material painted(const dvec3& color) {
-  Material material;
-  material.ambient = 0.1 * color;
-  material.diffuse = 0.5 * color;
-  material.specular = dvec3(0.3);
-  material.shininess = 40;
-  return material;
-}
 
 // Two lamps and two paints, number 0 and 1, seen from near the z axis.
 Scene lit_scene(const CameraSettings& camera) {
@@ -36,32 +30,10 @@ Scene lit_scene(const CameraSettings& camera) {
   return scene;
 }
 
-// A normal at each position, of its number: the mean of its faces' by area.
-PolygonMesh smoothed(PolygonMesh mesh) {
-  mesh.normals.assign(mesh.positions.size(), dvec3(0));
-  for (const PolygonMesh::Face& face : mesh.faces) {
-    const auto corner = [&](std::uint32_t k) {
-      return mesh.positions[mesh.corners[face.first + k].position];
-    };
-    dvec3 area(0);
-    for (std::uint32_t k = 2; k < face.count; ++k)
-      area += cross(corner(k - 1) - corner(0), corner(k) - corner(0));
-    for (std::uint32_t k = 0; k < face.count; ++k)
-      mesh.normals[mesh.corners[face.first + k].position] += area;
-  }
-  // Faces may cancel out, and a position may have none: any unit vector will do.
-  for (dvec3& n : mesh.normals)
-    if (n == dvec3(0)) n = {0, 0, 1};
-  for (PolygonMesh::Corner& corner : mesh.corners) corner.normal = corner.position;
-  return mesh;
-}
-
 void add(Scene& scene, PolygonMesh mesh, std::uint32_t material) {
   for (PolygonMesh::Face& face : mesh.faces) face.material = material;
   add_mesh(scene, smoothed(std::move(mesh)), {}, {});
 }
-
-// ---- The scenes of the z-buffer
 
 Scene spheres() {
   CameraSettings camera = test::any_way();
@@ -70,45 +42,6 @@ Scene spheres() {
   for (const PolygonMesh& sphere : test::ten_spheres(33, 64)) add(scene, sphere, 0);
   add(scene, test::ground(), 1);
   return scene;
-}
-
-// The octahedron |x| + |y| + |z| = n on its integer points, 8 n^2 triangles wound outward.
-PolygonMesh split_octahedron(int n) {
-  std::vector<dvec3> positions;
-  std::vector<test::Face> faces;
-  std::map<std::array<int, 3>, std::uint32_t> numbers;
-  const auto vertex = [&](int sx, int sy, int sz, int i, int j) {
-    const std::array<int, 3> at{sx * i, sy * j, sz * (n - i - j)};
-    const auto [place, is_new] = numbers.try_emplace(at, static_cast<std::uint32_t>(positions.size()));
-    if (is_new) positions.emplace_back(at[0], at[1], at[2]);
-    return place->second;
-  };
-  for (int octant = 0; octant < 8; ++octant) {
-    const int sx = octant & 1 ? -1 : 1, sy = octant & 2 ? -1 : 1, sz = octant & 4 ? -1 : 1;
-    const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-      faces.push_back(sx * sy * sz > 0 ? test::Face{a, b, c} : test::Face{a, c, b});
-    };
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; i + j < n; ++j) {
-        const auto at = [&](int di, int dj) { return vertex(sx, sy, sz, i + di, j + dj); };
-        face(at(0, 0), at(1, 0), at(0, 1));
-        if (i + j + 2 <= n) face(at(1, 0), at(1, 1), at(0, 1));
-      }
-  }
-  return test::mesh_of(positions, faces);
-}
-
-// What a scanner makes of a figure: closed, with limbs and hollows, of even small triangles, a little noisy.
-PolygonMesh made_scan(int n) {
-  PolygonMesh mesh = split_octahedron(n);
-  test::Random random(7);
-  for (dvec3& p : mesh.positions) {
-    const dvec3 d = normalize(p);
-    const double bumps = std::sin(4 * d.x + 1) * std::sin(5 * d.y) + 0.5 * std::sin(9 * d.z + 3 * d.x) +
-                         0.1 * std::sin(23 * d.y) * std::sin(19 * d.x);
-    p = (1 + 0.25 * bumps + 0.1 / n * random.uniform()) * d;
-  }
-  return mesh;
 }
 
 Scene scan(const PolygonMesh& mesh, double view_height) {
@@ -166,6 +99,15 @@ Scene sub_pixel() {
 
 }  // namespace
 
+Material painted(const dvec3& color) {
+  Material material;
+  material.ambient = 0.1 * color;
+  material.diffuse = 0.5 * color;
+  material.specular = dvec3(0.3);
+  material.shininess = 40;
+  return material;
+}
+
 std::vector<Entry> raster_entries(const std::optional<std::string>& mesh) {
   std::vector<Entry> entries{{"spheres", 5, 7, spheres}};
   if (mesh) {
@@ -187,19 +129,17 @@ CameraSettings moved_eye(const Scene& scene, int frame) {
   return camera;
 }
 
-std::vector<Entry> chosen(const std::vector<Entry>& entries, const std::string& text) {
-  if (text.empty()) return entries;
-  std::vector<Entry> out;
-  std::string known;
-  for (const Entry& entry : entries) {
-    known += (known.empty() ? "" : ",") + entry.name;
-    if ((',' + text + ',').find(',' + entry.name + ',') != std::string::npos) out.push_back(entry);
+std::vector<bool> chosen(const std::vector<std::string>& names, const std::string& text) {
+  if (text.empty()) return std::vector<bool>(names.size(), true);
+  std::vector<bool> wanted(names.size(), false);
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end())
+      throw UsageError(fmt::format("no scene '{}'; there are {}", word, fmt::join(names, ", ")));
+    wanted[static_cast<std::size_t>(found - names.begin())] = true;
   }
-  std::istringstream names(text);
-  for (std::string name; std::getline(names, name, ',');)
-    if ((',' + known + ',').find(',' + name + ',') == std::string::npos)
-      throw UsageError("no scene '" + name + "'; there are " + known);
-  return out;
+  return wanted;
 }
 
 }  // namespace sidelight::bench

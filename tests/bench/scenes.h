@@ -24,11 +24,24 @@ struct Entry {
 // `mesh`, the path of an OBJ file, takes the place of both made meshes. Throws InputError.
 std::vector<Entry> raster_entries(const std::optional<std::string>& mesh);
 
+// A Phong material of this colour.
+Material painted(const glm::dvec3& color);
+
 // The scene's camera at a frame: near its place, nowhere twice, looking at the same point.
 CameraSettings moved_eye(const Scene& scene, int frame);
 
-// `text` is names separated by commas, or empty for all. In the order of `entries`. Throws UsageError, which lists the
-// names.
-std::vector<Entry> chosen(const std::vector<Entry>& entries, const std::string& text);
+// Which of `names` stand in `text`, names separated by commas; all where it is empty. Throws UsageError, which lists
+// the names.
+std::vector<bool> chosen(const std::vector<std::string>& names, const std::string& text);
+template <class SomeEntry>
+std::vector<SomeEntry> chosen(const std::vector<SomeEntry>& entries, const std::string& text) {
+  std::vector<std::string> names;
+  for (const SomeEntry& entry : entries) names.push_back(entry.name);
+  const std::vector<bool> wanted = chosen(names, text);
+  std::vector<SomeEntry> out;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    if (wanted[i]) out.push_back(entries[i]);
+  return out;
+}
 
 }  // namespace sidelight::bench
