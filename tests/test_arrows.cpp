@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arrows of DESIGN 3, read from the #include lines of the tree: who may know whom. And one arrow that only the
+// The arrows between the folders, read from the #include lines of the tree: who may know whom. And one arrow that only the
 // linker sees: no file compiled for a newer instruction set may lend its functions to the rest of the program.
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The compiler flags are part of the algorithm (DESIGN 4): a fused multiply-add chosen by the compiler, or fast-math,
+// The compiler flags are part of the algorithm: a fused multiply-add chosen by the compiler, or fast-math,
 // breaks E(a,b) = -E(b,a) and with it watertightness, and makes instruction sets disagree. What is checked: the macros
 // and the rounding state here, products at run time, and the flags of every file of this build.
 #include <doctest/doctest.h>

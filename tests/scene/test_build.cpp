@@ -12,66 +12,19 @@
 #include "common/scene/shapes.h"
 #include "common/scene/unit_vector.h"
 #include "tests/hardcases/result.h"
+#include "tests/scene/built.h"
 #include "tests/support/random.h"
 #include "tests/support/wide.h"
 #include "tests/tier.h"
 
 using namespace sidelight;
+using namespace sidelight::test;
 using glm::dmat3;
 using glm::dvec3;
 
 namespace {
 
-const SourceLocation kHere{"s.toml", 7, 3};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Scene scene_with(const std::vector<double>& refract_iors = {}) {
-  Scene scene;
-  add_material(scene, {});
-  for (const double ior : refract_iors) {
-    Material glass;
-    glass.refract = dvec3(0, 0, 0.5);
-    glass.ior = ior;
-    add_material(scene, glass);
-  }
-  return scene;
-}
-
-PolygonMesh mesh_of(std::vector<dvec3> positions, const std::vector<std::vector<std::uint32_t>>& faces) {
-  PolygonMesh mesh;
-  mesh.positions = std::move(positions);
-  for (const auto& numbers : faces) {
-    PolygonMesh::Face face;
-    face.first = static_cast<std::uint32_t>(mesh.corners.size());
-    face.count = static_cast<std::uint32_t>(numbers.size());
-    for (const std::uint32_t number : numbers) mesh.corners.push_back({number, kNone});
-    mesh.faces.push_back(face);
-  }
-  return mesh;
-}
-
-const std::vector<dvec3> kCorners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-const std::vector<std::vector<std::uint32_t>> kTetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-
-Scene built(const PolygonMesh& mesh, const Transform& transform = {}) {
-  Scene scene = scene_with();
-  add_mesh(scene, mesh, transform, kHere);
-  return scene;
-}
-
-bool is_closed(const std::vector<dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces) {
-  return built(mesh_of(positions, faces)).objects[0].closed;
-}
-
-double volume(const Scene& scene) {
-  double sum = 0;
-  for (const Triangle& t : scene.triangles)
-    sum += glm::dot(scene.positions[t.vertex[0]],
-                    glm::cross(scene.positions[t.vertex[1]], scene.positions[t.vertex[2]]));
-  return sum / 6;
-}
-
-dmat3 diagonal(double x, double y, double z) { return {x, 0, 0, 0, y, 0, 0, 0, z}; }
 
 std::string mistake(const PolygonMesh& mesh, const Transform& transform = {}) {
   try {
@@ -249,127 +202,6 @@ TEST_CASE("build: a mirror image keeps its outside") {
   CHECK(volume(built(mesh_of(kCorners, kTetrahedron))) == doctest::Approx(1.0 / 6));
   CHECK(volume(built(mesh_of(kCorners, kTetrahedron), {diagonal(-1, 1, 1), dvec3(5)})) ==
         doctest::Approx(1.0 / 6));
-}
-
-TEST_CASE("build: a closed mesh is turned outward, its triangles keep their numbers") {
-  auto inward = kTetrahedron;
-  for (auto& face : inward) std::swap(face[1], face[2]);
-  PolygonMesh mesh = mesh_of(kCorners, inward);
-  mesh.normals = kCorners;
-  for (auto& corner : mesh.corners) corner.normal = corner.position;
-  for (const double far : {0.0, 1e6, 1e12}) {
-    CAPTURE(far);
-    const Scene scene = built(mesh, {dmat3(1), dvec3(far)});
-    CHECK(scene.objects[0].closed);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::array<std::uint32_t, 3> expected{kTetrahedron[i][0], kTetrahedron[i][1], kTetrahedron[i][2]};
-      CHECK(scene.triangles[i].vertex == expected);
-      CHECK(scene.triangles[i].normal == expected);
-    }
-  }
-  inward.pop_back();  // open: as the file has it
-  CHECK(built(mesh_of(kCorners, inward)).triangles[0].vertex == std::array<std::uint32_t, 3>{0, 1, 2});
-}
-
-TEST_CASE("build: closed means each directed edge once, with its reverse, by position") {
-  CHECK(is_closed(kCorners, kTetrahedron));
-  CHECK_FALSE(is_closed(kCorners, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}}));
-  CHECK_FALSE(is_closed(kCorners, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 3, 0}, {2, 3, 0}}));
-  CHECK_FALSE(is_closed(kCorners, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}}));  // one face turned over
-  auto twice = kTetrahedron;
-  twice.insert(twice.end(), kTetrahedron.begin(), kTetrahedron.end());
-  CHECK_FALSE(is_closed(kCorners, twice));
-  CHECK_FALSE(is_closed({}, {}));
-
-  // Each face with vertices of its own.
-  std::vector<dvec3> own;
-  std::vector<std::vector<std::uint32_t>> faces;
-  for (const auto& face : kTetrahedron) {
-    const auto first = static_cast<std::uint32_t>(own.size());
-    faces.push_back({first, first + 1, first + 2});
-    for (const std::uint32_t k : face) own.push_back(kCorners[k]);
-  }
-  CHECK(is_closed(own, faces));
-  own[0].x = -0.0;
-  CHECK(is_closed(own, faces));
-  own[0].x = 1e-29;
-  CHECK_FALSE(is_closed(own, faces));
-}
-
-TEST_CASE("build: degenerate triangles are flagged, and a mesh that closes with them is closed") {
-  // (0 2 1) with its edge 0-1 divided at 4: a flat triangle joins the halves to the whole edge of (0 1 3).
-  std::vector<dvec3> corners = kCorners;
-  corners.push_back({0.5, 0, 0});
-  corners.push_back({1, 0, 0});  // 5, the place of 1
-  const std::vector<std::vector<std::uint32_t>> divided{{0, 2, 4}, {4, 2, 1}, {0, 4, 1},
-                                                        {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  const Scene scene = built(mesh_of(corners, divided));
-  CHECK(scene.objects[0].closed);
-  for (std::size_t i = 0; i < 6; ++i) CHECK(scene.triangles[i].degenerate == (i == 2));
-  CHECK_FALSE(is_closed(corners, {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}));
-
-  for (const auto& needle :
-       std::vector<std::vector<std::uint32_t>>{{0, 1, 5}, {1, 5, 0}, {1, 1, 2}, {3, 3, 3}}) {
-    auto faces = kTetrahedron;
-    faces.push_back(needle);
-    const Scene with = built(mesh_of(corners, faces));
-    CHECK(with.objects[0].closed);
-    CHECK(with.triangles[4].degenerate);
-    CHECK(with.triangles.size() == 5);
-  }
-}
-
-TEST_CASE("build: degeneracy is exact (TRI-4)") {
-  std::uint64_t state = 9;
-  const auto random = [&] {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<double>(state >> 44);  // below 2^20
-  };
-  for (int i = 0; i < 3000; ++i) {
-    const dvec3 a(random(), random(), random()), b(random(), random(), random());
-    if (a == b) continue;
-    const double k = i % 3 == 0 ? 2 : i % 3 == 1 ? 3 : -1;
-    dvec3 c = a + k * (b - a);
-    CHECK(built(mesh_of({a, b, c}, {{0, 1, 2}})).triangles[0].degenerate);
-    c[i % 2] = std::nextafter(c[i % 2], kInfinity);
-    // Off the line by one ulp, unless the line runs along that axis.
-    const bool along = glm::length(b - a) == std::abs(b[i % 2] - a[i % 2]);
-    CHECK(built(mesh_of({a, b, c}, {{0, 1, 2}})).triangles[0].degenerate == along);
-  }
-  const Scene pbrt = built(mesh_of({{-1113.45459, -79.049614, -56.2431908},
-                                    {-1113.45459, -87.0922699, -56.2431908},
-                                    {-1113.45459, -79.2090149, -56.2431908}},
-                                   {{0, 1, 2}}));
-  CHECK(pbrt.triangles[0].degenerate);
-}
-
-TEST_CASE("build: solids and their index of refraction") {
-  Scene scene = scene_with({1.5, 1.33});
-  add_sphere(scene, {{0, 0, 0}, 1, 0}, kHere);
-  add_sphere(scene, {{0, 0, 0}, 1, 1}, kHere);
-  add_plane(scene, {{0, 0, 0}, {0, 1, 0}, 2}, kHere);
-  PolygonMesh mesh = mesh_of(kCorners, kTetrahedron);
-  add_mesh(scene, mesh, {}, kHere);
-  mesh.faces[1].material = 2;
-  mesh.faces[2].material = 2;
-  add_mesh(scene, mesh, {}, kHere);
-  CHECK(scene.warnings.empty());
-  mesh.faces[2].material = 1;
-  add_mesh(scene, mesh, {}, kHere);
-  mesh.faces.pop_back();
-  add_mesh(scene, mesh, {}, kHere);
-
-  const std::vector<bool> solid{false, true, true, false, true, true, false};
-  const std::vector<double> ior{1, 1.5, 1.33, 1, 1.33, 1.33, 1};
-  for (std::size_t i = 0; i < solid.size(); ++i) {
-    CAPTURE(i);
-    CHECK(scene.objects[i].solid == solid[i]);
-    CHECK(scene.objects[i].ior == ior[i]);
-  }
-  REQUIRE(scene.warnings.size() == 2);
-  CHECK(scene.warnings[0].find("s.toml:7:3: the mesh's materials have several indices of refraction") == 0);
-  CHECK(scene.warnings[1].find("s.toml:7:3: the mesh refracts but is not closed") == 0);
-  CHECK(scene.warnings[1].find("T = D") != std::string::npos);
 }
 
 TEST_CASE("build: counts beyond bounds are refused before memory is spent") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The generator of HARDCASES section 0, so that counts can be repeated: splitmix64, seeded by a small number.
+// Random numbers that can be repeated: splitmix64, seeded by a small number.
 // S. Vigna, "splitmix64.c", 2015, after G. Steele, D. Lea, C. Flood, "Fast Splittable Pseudorandom Number
 // Generators", OOPSLA 2014.
 #pragma once
@@ -28,10 +28,11 @@ class Random {
   // In [low, high), evenly spread over the magnitudes; 0 < low < high.
   double log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
 
-  // In [0, count), in [-limit, limit].
+  // In [0, count), in [-limit, limit], in [low, high].
   std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(uniform() * count); }
-  std::int64_t integer(std::int64_t limit) {
-    return static_cast<std::int64_t>(bits() % static_cast<std::uint64_t>(2 * limit + 1)) - limit;
+  std::int64_t integer(std::int64_t limit) { return between(-limit, limit); }
+  std::int64_t between(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(bits() % static_cast<std::uint64_t>(high - low + 1));
   }
 
   glm::dvec3 in_box(double half_edge) {

@@ -73,7 +73,7 @@ inline Light sun(const glm::dvec3& to_light, double intensity) {
   return light;
 }
 
-// S(rows, columns, amplitude, seed) of HARDCASES section 0: closed, star-shaped around the origin, wound
+// S(rows, columns, amplitude, seed) of the hard cases: closed, star-shaped around the origin, wound
 // outward.
 inline PolygonMesh star_sphere(std::uint32_t rows, std::uint32_t columns, double amplitude,
                                std::uint64_t seed) {
