@@ -65,39 +65,46 @@ run_preset() {
   fi
   record "$preset: build" "$start" 0 0 0
 
-  echo "== $preset: test"
-  start=$SECONDS
-  local report="$dir/junit.xml" code=0 before after only=()
-  if [[ $preset == tsan && -n $(entry tsan_runs "$tier") ]]; then
-    only=(-R "^($(entry tsan_runs "$tier"))")
-  fi
+  local before after
   before="$(stored_pictures)"
-  rm -f -- "$report" "$dir/hardcases.tsv"
-  SIDELIGHT_TIER="$(tier_of "$preset")" SIDELIGHT_BLESS="$bless" run_in "$preset" \
-    ctest --test-dir "$dir" "${only[@]}" -j "$jobs" --timeout "$(entry test_timeout_seconds "$(tier_of "$preset")")" \
-    --output-on-failure --no-tests=error --output-junit "$report" || code=$?
-  local total bad not_run
-  total="$(junit_count tests "$report")" bad="$(junit_count failures "$report")"
-  not_run=$(($(junit_count skipped "$report") + $(junit_count disabled "$report")))
-  ((bad > 0 || (total > 0 && code == 0))) || bad=1 total=$((total + 1))
-  record "$preset: test" "$start" $((total - bad - not_run)) "$bad" "$not_run"
-
-  start=$SECONDS
-  if ((${#only[@]})); then
-    record "$preset: hard cases" "$start" 0 0 1   # not all of them ran
+  if [[ $preset == tsan && -n $(entry tsan_runs "$tier") ]]; then
+    run_tests "$preset" "$preset: test" -R "^($(entry tsan_runs "$tier"))"
+    record "$preset: hard cases" "$SECONDS" 0 0 1   # not all of them ran
   else
-    echo "== $preset: hard cases"
-    if "$root/tests/hardcases/table.sh" "$dir"; then
-      record "$preset: hard cases" "$start" 1 0 0
-    else
-      record "$preset: hard cases" "$start" 0 1 0
-    fi
+    run_tests "$preset" "$preset: test"
+    judge_hard_cases "$preset" "$preset: hard cases"
   fi
 
   if [[ -n $bless ]]; then
     after="$(stored_pictures)"
     echo "stored pictures that changed:"
     diff <(echo "$before") <(echo "$after") | sed -nE 's/^[<>] [0-9a-f]+ +/  /p' | sort -u
+  fi
+}
+
+# The tests of preset $1 as stage $2, with what follows as further arguments of ctest.
+run_tests() {
+  local preset=$1 stage=$2 start=$SECONDS dir="$root/build/$1" code=0 total bad not_run
+  shift 2
+  echo "== $stage"
+  rm -f -- "$dir/junit.xml" "$dir/hardcases.tsv"
+  SIDELIGHT_TIER="$(tier_of "$preset")" SIDELIGHT_BLESS="$bless" run_in "$preset" \
+    ctest --test-dir "$dir" "$@" -j "$jobs" --timeout "$(entry test_timeout_seconds "$(tier_of "$preset")")" \
+    --output-on-failure --no-tests=error --output-junit "$dir/junit.xml" || code=$?
+  total="$(junit_count tests "$dir/junit.xml")" bad="$(junit_count failures "$dir/junit.xml")"
+  not_run=$(($(junit_count skipped "$dir/junit.xml") + $(junit_count disabled "$dir/junit.xml")))
+  ((bad > 0 || (total > 0 && code == 0))) || bad=1 total=$((total + 1))
+  record "$stage" "$start" $((total - bad - not_run)) "$bad" "$not_run"
+}
+
+# Stage $2: the table of the hard cases that the tests of preset $1 just met.
+judge_hard_cases() {
+  local start=$SECONDS
+  echo "== $2"
+  if "$root/tests/hardcases/table.sh" "$root/build/$1"; then
+    record "$2" "$start" 1 0 0
+  else
+    record "$2" "$start" 0 1 0
   fi
 }
 
@@ -177,6 +184,10 @@ if ((${#presets[@]} == 0)); then
 fi
 for preset in "${presets[@]}"; do run_preset "$preset"; done
 if [[ -z $only_presets ]]; then
+  for isa in $(entry suite_isas "$tier"); do
+    SIDELIGHT_ISA="$isa" run_tests release "release on $isa: test"
+    judge_hard_cases release "release on $isa: hard cases"
+  done
   read -ra isas <<<"$(entry isas "$tier")"
   ((${#isas[@]} == 0)) || run_isas "${isas[@]}"
   [[ $(entry planted_faults "$tier") == 0 ]] || run_script "planted faults" "$root/tests/planted_faults.sh"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/math/isa.h"
 
+#include <cstdlib>
+
 namespace sidelight {
 
 bool machine_has(Isa isa) {
@@ -15,9 +17,13 @@ bool machine_has(Isa isa) {
 }
 
 Isa best_isa() {
-  if (machine_has(Isa::avx512)) return Isa::avx512;
-  if (machine_has(Isa::avx2)) return Isa::avx2;
-  return Isa::scalar;
+  static const Isa best = [] {
+    const char* wanted = std::getenv("SIDELIGHT_ISA");
+    const std::optional<Isa> named = parse_isa(wanted ? wanted : "");
+    if (named && machine_has(*named)) return *named;
+    return machine_has(Isa::avx512) ? Isa::avx512 : machine_has(Isa::avx2) ? Isa::avx2 : Isa::scalar;
+  }();
+  return best;
 }
 
 std::string_view isa_name(Isa isa) {

@@ -10,7 +10,8 @@ namespace sidelight {
 enum class Isa { scalar, avx2, avx512 };
 
 bool machine_has(Isa isa);
-// The widest one this machine has.
+// The widest one this machine has; the environment variable SIDELIGHT_ISA, read once, may name a narrower one, so that
+// a whole test suite can run on it. Any other value of it is ignored.
 Isa best_isa();
 std::string_view isa_name(Isa isa);
 // "scalar", "avx2", "avx512"; anything else is empty.

@@ -3,6 +3,7 @@
 // and help that is true.
 #include <nlohmann/json.hpp>
 
+#include "common/math/isa.h"
 #include "tests/tier.h"
 #include "tests/viewer/program.h"
 
@@ -104,6 +105,19 @@ TEST_CASE("output: nothing on standard output unasked and nothing at all with -q
     CHECK(outcome.out.empty());
     CHECK(outcome.err.empty());
   }
+}
+
+TEST_CASE("output: SIDELIGHT_ISA names a narrower instruction set, --isa has the last word") {
+  const Workplace here;
+  const auto isa = [&](const std::string& named, const Arguments& more = {}) {
+    const Arguments asked = render({"-q", "-o", "a.png", "--stats", "-"}) + more;
+    const Outcome outcome = here.command(Arguments{"env", "SIDELIGHT_ISA=" + named, SIDELIGHT_BINARY} + asked);
+    REQUIRE(outcome.code == 0);
+    return nlohmann::json::parse(outcome.out).at("isa").get<std::string>();
+  };
+  CHECK(isa("scalar") == "scalar");
+  CHECK(isa("avx999") == isa(""));
+  if (machine_has(Isa::avx2)) CHECK(isa("scalar", {"--isa", "avx2"}) == "avx2");
 }
 
 TEST_CASE("output: the statistics have the documented keys") {
