@@ -70,7 +70,9 @@ TEST_CASE("next to the critical angle directions are unit, keep Snell's law and 
         for (std::uint64_t left = each; left > 0; --left) {
           const double angle = std::min(std::asin(1 / n) * (1 + side * width * random.uniform()), 1.57);
           const glm::dvec3 normal = random.direction();
-          const glm::dvec3 d = -std::cos(angle) * normal + std::sin(angle) * across(normal, random);
+          // Unit anew: where `across` was drawn near the normal, it is so many more eps off being square to it.
+          const glm::dvec3 d =
+              glm::normalize(-std::cos(angle) * normal + std::sin(angle) * across(normal, random));
           const std::optional<glm::dvec3> t = refract_direction(d, normal, normal, n);
 
           const QuadVec exact_n = (1 / length(quad(normal))) * quad(normal),
