@@ -260,7 +260,9 @@ toml::table parse_setting(const std::string& text, const std::string& path, cons
   return toml::table(parsed);  // not moved: a copy leaves places behind
 }
 
-Scene read_document(const std::string& text, const std::string& path, const Settings& set) {
+// `files_read` receives the mesh files.
+Scene read_document(const std::string& text, const std::string& path, const Settings& set,
+                    std::vector<std::string>& files_read) {
   const Document document{path, {path, 0, 0}};
   toml::table root = parse_toml(text, path);
   for (const auto& [key, value] : set) {
@@ -268,7 +270,6 @@ Scene read_document(const std::string& text, const std::string& path, const Sett
     set_value(document, root, key, {}, std::move(*parsed.get("value")));
   }
 
-  std::vector<std::string> files_read;
   Effort effort;
   Scene scene = read_scene(document, root, every_object, effort, files_read);
   // Steps start from the file as it is: with other settings applied, a step alone proves nothing.
@@ -288,12 +289,20 @@ Scene load_scene(const std::string& path) { return parse_scene(scene_file::read_
 
 Scene parse_scene(const std::string& text, const std::string& path) {
   const StandardFloatState nearest_and_denormals;
-  return scene_file::read_document(text, path, {});
+  std::vector<std::string> files_read;
+  return scene_file::read_document(text, path, {}, files_read);
 }
 
-Scene load_scene_with(const std::string& path, const std::vector<std::pair<std::string, std::string>>& set) {
+Scene load_scene_with(const std::string& path, const std::vector<std::pair<std::string, std::string>>& set,
+                      std::vector<std::string>* files) {
   const StandardFloatState nearest_and_denormals;
-  return scene_file::read_document(scene_file::read_scene_text(path), path, set);
+  std::vector<std::string> meshes;
+  Scene scene = scene_file::read_document(scene_file::read_scene_text(path), path, set, meshes);
+  if (files) {
+    *files = std::move(meshes);
+    files->insert(files->begin(), path);
+  }
+  return scene;
 }
 
 }  // namespace sidelight

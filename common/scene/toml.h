@@ -16,7 +16,9 @@ Scene load_scene(const std::string& path);
 Scene parse_scene(const std::string& text, const std::string& path);
 
 // Sets one value of a scene file's text by its key path ("trace.depth" = "1"), as a lesson's step does, and returns
-// the scene that results. Throws InputError as load_scene does.
-Scene load_scene_with(const std::string& path, const std::vector<std::pair<std::string, std::string>>& set);
+// the scene that results. `files`, where given, receives the names of all files that were read: the scene's, then those
+// of its meshes. Throws InputError as load_scene does.
+Scene load_scene_with(const std::string& path, const std::vector<std::pair<std::string, std::string>>& set,
+                      std::vector<std::string>* files = nullptr);
 
 }  // namespace sidelight

@@ -4,28 +4,16 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
-#include <cstring>
 #include <thread>
 
-#include "common/scene/toml.h"
-#include "tests/viewer/program.h"
-#include "viewer/window/session.h"
+#include "tests/viewer/session.h"
 
 using namespace sidelight;
 using namespace sidelight::testing;
 
 namespace {
 
-constexpr Rect kPanel{24, 90, 24 + 320, 90 + 240};
-
-OpenedScene open_small(const std::string& file, const Settings& set) {
-  OpenedScene opened;
-  opened.scene = load_scene_with(file, set);
-  opened.scene.width = 48;
-  opened.scene.height = 36;
-  opened.options.threads = 2;
-  return opened;
-}
+const SceneOpener open_small = opener(48, 36);
 
 const std::string kLesson =
     "[[step]]\n"
@@ -36,37 +24,11 @@ const std::string kLesson =
     "[[step]]\n"
     "text = 'And now?'\n";
 
-bool same_bits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
-}
-
-// The pictures that a headless run makes of what the session shows.
-void check_headless(const Session& session) {
-  session.worker().wait();
-  const Pictures shown = session.worker().latest();
-  REQUIRE(shown.error == "");
-  REQUIRE(shown.finished);
-  PictureTask task = picture_task(session.state());
-  const auto rasterizer = raster::prepare(*task.scene);
-  const auto tracer = raytrace::prepare(*task.scene);
-  CHECK(
-      same_bits(shown.rastered->color, raster::render(*rasterizer, task.made_camera(), task.options).color));
-  CHECK(same_bits(shown.traced->color, raytrace::render(*tracer, task.made_camera(), task.options).color));
-  CHECK(same_bits(shown.traced->color, render_pictures(task).traced->color));
-}
-
 struct Open {
   TemporaryFolder folder;
   std::string file = folder / "scene.toml";
   explicit Open(const std::string& text = kGoodScene + kLesson) { write_bytes(file, text); }
 };
-
-// The file with a time that differs from the one before, however coarse the file system's clock.
-void save_later(const std::string& file, const std::string& text) {
-  const auto before = std::filesystem::last_write_time(file);
-  write_bytes(file, text);
-  std::filesystem::last_write_time(file, before + std::chrono::seconds(2));
-}
 
 }  // namespace
 

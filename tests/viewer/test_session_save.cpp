@@ -2,27 +2,17 @@
 // What leaves the window: scene files that load to what was shown, commands that tell what the inspector tells.
 #include <doctest/doctest.h>
 
-#include <cstring>
 #include <glm/geometric.hpp>
 
-#include "common/scene/toml.h"
-#include "tests/viewer/program.h"
+#include "tests/viewer/session.h"
 #include "viewer/window/inspection.h"
-#include "viewer/window/session.h"
 
 using namespace sidelight;
 using namespace sidelight::testing;
 
 namespace {
 
-constexpr Rect kPanel{24, 90, 24 + 320, 90 + 240};
-
-OpenedScene open_plain(const std::string& file, const Settings& set) {
-  OpenedScene opened;
-  opened.scene = load_scene_with(file, set);
-  opened.options.threads = 1;
-  return opened;
-}
+const SceneOpener open_plain = opener(64, 48);
 
 const std::string kStep =
     "[picture]\nsize = [64, 48]\n"
@@ -34,8 +24,7 @@ bool same_picture(const WindowState& state, const Scene& scene) {
   other.scene = std::make_shared<const Scene>(scene);
   other.camera = scene.camera;
   const auto a = render_pictures(picture_task(state)).traced, b = render_pictures(other).traced;
-  return a->color.size() == b->color.size() &&
-         std::memcmp(a->color.data(), b->color.data(), a->color.size() * sizeof a->color[0]) == 0;
+  return same_bits(a->color, b->color);
 }
 
 }  // namespace
@@ -78,7 +67,7 @@ TEST_CASE("copy as command: explain then prints the inspector's words") {
   CAPTURE(command);
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
-  const Inspection inspection = *inspect_pixel(session.state());
+  const Inspection inspection = *inspect_pixel(session.state(), rested(session));
   REQUIRE(inspection.samples.size() == 1);
   CHECK(outcome.out.find(raster_words(*inspection.scene, inspection.samples[0].raster, 1)) !=
         std::string::npos);
@@ -90,11 +79,12 @@ TEST_CASE("inspection: rays start where the eye's ends, and the lobe's value is 
   const Workplace here;
   write_bytes(here / "scene.toml", kGoodScene + kStep);
   WindowState state = open_state(here / "scene.toml", open_plain);
-  CHECK_FALSE(inspect_pixel(state).has_value());
+  const Pictures pictures = render_pictures(picture_task(state));
+  CHECK_FALSE(inspect_pixel(state, pictures).has_value());
   int lobes = 0;
   for (int x = 4; x < 64; x += 6) {
     state.inspected = {x, 26};
-    const Inspection inspection = *inspect_pixel(state);
+    const Inspection inspection = *inspect_pixel(state, pictures);
     const RayRecord& root = inspection.samples[0].raytrace;
     for (const RaySegment& segment : ray_segments(inspection)) {
       CHECK(segment.from != segment.to);

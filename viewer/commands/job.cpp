@@ -144,7 +144,7 @@ Job load_job(const JobFlags& flags, const Settings& set) {
   const double start = wall_ms();
   Settings settings = set;
   for (const std::string& each : flags.set) settings.push_back(parse_setting(each));
-  job.scene = load_scene_with(flags.scene, settings);
+  job.scene = load_scene_with(flags.scene, settings, &job.files);
   job.load_ms = wall_ms() - start;
   if (!flags.quiet)
     for (const std::string& warning : job.scene.warnings)

@@ -52,6 +52,7 @@ struct Job {
   std::optional<Scene> untessellated;  // the same with its spheres, where --tessellate took them
   Camera camera;
   RenderOptions options;  // layers and keep_samples are the verb's to set
+  std::vector<std::string> files;      // that were read: the scene's, then those of its meshes
   double load_ms = 0;
 };
 

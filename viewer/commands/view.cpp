@@ -31,6 +31,7 @@ OpenedScene open_scene(const JobFlags& flags, const std::string& file, const Set
   opened.times = !flags.no_times;
   check_memory(job);
   opened.scene = std::move(job.scene);
+  opened.files = std::move(job.files);
   return opened;
 }
 

@@ -74,20 +74,19 @@ std::optional<Lobe> specular_lobe(const Inspection& inspection) {
       angle(mirrored, viewer), glm::dot(viewer, normal) > glm::dot(mirrored, normal),   brightest.highlight};
 }
 
-std::optional<Inspection> inspect_pixel(const WindowState& state) {
-  if (!state.inspected) return {};
-  const PictureTask task = picture_task(state);
+std::optional<Inspection> inspect_pixel(const WindowState& state, const Pictures& pictures) {
+  const PictureTask& task = pictures.task;
+  if (!state.inspected || pictures.block == 0 || task.scene != state.drawn) return {};
   Inspection out;
   out.pixel = *state.inspected;
   out.scene = task.scene;
+  out.asked_ms = task.asked_ms;
   out.camera = task.made_camera();
-  const auto rasterizer = raster::prepare(*task.scene, task.options.threads);
-  const auto tracer = raytrace::prepare(*task.scene, task.options.threads);
   for (int j = 0; j < task.n; ++j)
     for (int i = 0; i < task.n; ++i) {
       const int X = task.n * out.pixel.x + i, Y = task.n * out.pixel.y + j;
-      out.samples.push_back({i, j, raster::explain(*rasterizer, out.camera, X, Y),
-                             raytrace::explain(*tracer, out.camera, X, Y)});
+      out.samples.push_back({i, j, raster::explain(*pictures.renderers.rasterizer, out.camera, X, Y),
+                             raytrace::explain(*pictures.renderers.tracer, out.camera, X, Y)});
     }
   return out;
 }

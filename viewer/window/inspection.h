@@ -18,6 +18,7 @@ namespace sidelight {
 struct Inspection {
   glm::ivec2 pixel{0};
   std::shared_ptr<const Scene> scene;
+  double asked_ms = 0;  // of the task whose picture it explains
   Camera camera;
   std::vector<ExplainedSample> samples;  // all of the pixel's, row by row
 };
@@ -44,7 +45,8 @@ struct Lobe {
 // Of the light that shines on the pixel most by its specular term; nothing on the background or in the dark.
 std::optional<Lobe> specular_lobe(const Inspection& inspection);
 
-// Nothing if no pixel is inspected. Prepares both renderers anew: about a build of each.
-std::optional<Inspection> inspect_pixel(const WindowState& state);
+// Of the view that `pictures` show, by the renderers that drew them. Nothing if no pixel is inspected, or if the tracer's
+// picture is still an earlier view's.
+std::optional<Inspection> inspect_pixel(const WindowState& state, const Pictures& pictures);
 
 }  // namespace sidelight

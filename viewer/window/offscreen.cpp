@@ -52,7 +52,7 @@ PictureBoxes side_by_side_boxes(glm::ivec2 picture, const Labels& labels) {
 
 Image8 screenshot(const WindowState& state, const Pictures& pictures, int width, int height) {
   const Shown shown = show(state, pictures, pictures);
-  const std::optional<Inspection> inspection = inspect_pixel(state);
+  const std::optional<Inspection> inspection = inspect_pixel(state, pictures);
   return draw_offscreen(width, height, [&](Canvas& canvas) {
     canvas.set_scale(state.text_scale);
     WindowState fitted = state;

@@ -27,10 +27,15 @@ Scene first_objects(const Scene& scene, std::size_t objects) {
   return part;
 }
 
-RenderOptions options_for(const PictureTask& task, LayerMask layers, std::atomic<bool>* cancel) {
+// How much of a picture is made: what is looked at, or all that it will be asked for later.
+enum class Extent { glimpse, complete };
+
+RenderOptions options_for(const PictureTask& task, Extent extent, LayerMask all, std::atomic<bool>* cancel) {
+  const LayerMask looked_at = task.layer ? layer_bit(*task.layer) : 0;
   RenderOptions options = task.options;
-  options.layers = layers | (task.cost ? layer_bit(Layer::cost) : 0);
-  options.keep_samples = true;  // for the count of mismatches
+  options.layers = extent == Extent::complete ? all | (looked_at & layer_bit(Layer::cost))
+                                              : looked_at & (all | layer_bit(Layer::cost));
+  options.keep_samples = extent == Extent::complete;  // for the count of mismatches
   options.cancel = cancel;
   options.progress = {};
   return options;
@@ -46,68 +51,76 @@ std::optional<Comparison> compare_pictures(const Pictures& pictures) {
 // Lives as long as its scene is drawn: a moved camera builds nothing.
 class BuiltScene {
  public:
-  explicit BuiltScene(const PictureTask& task) : scene_(task.scene), objects_(task.objects) {
+  explicit BuiltScene(const PictureTask& task) : objects_(task.objects) {
     const double start = wall_ms();
-    if (objects_ < scene_->objects.size()) part_ = first_objects(*scene_, objects_);
-    rasterizer_ = raster::prepare(part_ ? *part_ : *scene_, task.options.threads);
+    renderers_.scene = task.scene;
+    if (objects_ < task.scene->objects.size())
+      renderers_.part = std::make_shared<const Scene>(first_objects(*task.scene, objects_));
+    renderers_.rasterizer =
+        raster::prepare(renderers_.part ? *renderers_.part : *renderers_.scene, task.options.threads);
     raster_ms_ = wall_ms() - start;
   }
-  bool serves(const PictureTask& task) const { return scene_ == task.scene && objects_ == task.objects; }
-
-  // After the z-buffer's picture, which need not wait for the tracer's hierarchy.
-  const raytrace::Prepared& tracer(int threads) {
-    if (!tracer_) {
-      const double start = wall_ms();
-      tracer_ = raytrace::prepare(*scene_, threads);
-      tracer_ms_ = wall_ms() - start;
-    }
-    return *tracer_;
+  bool serves(const PictureTask& task) const {
+    return renderers_.scene == task.scene && objects_ == task.objects;
   }
+
   // The tracer's hierarchy is the same, however many objects the z-buffer draws.
   void take_tracer(const BuiltScene& other) {
-    if (other.scene_ != scene_) return;
-    tracer_ = other.tracer_;
+    if (other.renderers_.scene != renderers_.scene) return;
+    renderers_.tracer = other.renderers_.tracer;
     tracer_ms_ = other.tracer_ms_;
   }
 
-  void draw_raster(Pictures& out, std::atomic<bool>* cancel) const {
+  // With n x n samples, which for a glimpse may be fewer than the task's.
+  void draw_raster(Pictures& out, Extent extent, int n, std::atomic<bool>* cancel) const {
     const PictureTask& task = out.task;
+    const Camera camera = make_camera(task.camera, task.scene->width, task.scene->height, n);
     const double start = wall_ms();
-    out.rastered = std::make_shared<const Frame>(
-        raster::render(*rasterizer_, task.made_camera(), options_for(task, kRasterLayers, cancel)));
+    out.rastered = std::make_shared<const Frame>(raster::render(
+        *renderers_.rasterizer, camera, options_for(task, extent, kRasterLayers, cancel)));
     const double ms = wall_ms() - start;
-    const std::uint64_t samples = out.rastered->pixels() * static_cast<std::uint64_t>(task.n * task.n);
-    out.left = {raster_ms_, ms, per_second(samples, ms)};
+    out.left = {raster_ms_, ms, per_second(out.rastered->pixels() * static_cast<std::uint64_t>(n * n), ms)};
+    out.renderers = renderers_;
   }
 
-  // The tracer's picture with one pixel for `block` x `block`; at block 1 with n x n samples, the final one for n = task.n.
-  void draw_traced(Pictures& out, int block, int n, std::atomic<bool>* cancel) {
+  // The tracer's picture with one pixel for `block` x `block`. Prepares it first, where it is not: after the z-buffer's
+  // picture, which need not wait for the tracer's hierarchy.
+  void draw_traced(Pictures& out, Extent extent, int block, int n, std::atomic<bool>* cancel) {
     const PictureTask& task = out.task;
-    const raytrace::Prepared& prepared = tracer(task.options.threads);
+    if (!renderers_.tracer) {
+      const double start = wall_ms();
+      renderers_.tracer = raytrace::prepare(*task.scene, task.options.threads);
+      tracer_ms_ = wall_ms() - start;
+    }
     const auto coarse = [block](int edge) { return (edge + block - 1) / block; };
-    const Camera camera = make_camera(task.camera, coarse(scene_->width), coarse(scene_->height), n);
+    const Camera camera = make_camera(task.camera, coarse(task.scene->width), coarse(task.scene->height), n);
     const double start = wall_ms();
     out.traced = std::make_shared<const Frame>(
-        raytrace::render(prepared, camera, options_for(task, kRaytraceLayers, cancel)));
+        raytrace::render(*renderers_.tracer, camera, options_for(task, extent, kRaytraceLayers, cancel)));
     const double ms = wall_ms() - start;
     out.right = {tracer_ms_, ms, per_second(out.traced->stats.rays.total(), ms)};
     out.block = block;
-    out.finished = block == 1 && n == task.n;
+    out.renderers = renderers_;
+  }
+
+  // Both pictures as a headless run makes them, and what their comparison says.
+  void complete(Pictures& out, std::atomic<bool>* cancel) {
+    draw_raster(out, Extent::complete, out.task.n, cancel);
+    draw_traced(out, Extent::complete, 1, out.task.n, cancel);
+    out.comparison = compare_pictures(out);
+    out.finished = true;
   }
 
  private:
-  std::shared_ptr<const Scene> scene_;
+  Renderers renderers_;
   std::size_t objects_;
-  std::optional<Scene> part_;
-  std::shared_ptr<const raster::Prepared> rasterizer_;
   double raster_ms_ = 0, tracer_ms_ = 0;
-  std::shared_ptr<const raytrace::Prepared> tracer_;
 };
 
 namespace {
 
 // The coarsest blocks first: so coarse that they are there in `kFirstMs`, by the speed seen lately.
-constexpr double kFirstMs = 25;
+constexpr double kFirstMs = 8;
 constexpr int kCoarsest = 16;
 
 int first_block(const PictureTask& task, double pixels_per_ms) {
@@ -124,10 +137,7 @@ int first_block(const PictureTask& task, double pixels_per_ms) {
 Pictures render_pictures(const PictureTask& task) {
   Pictures pictures;
   pictures.task = task;
-  BuiltScene built(task);
-  built.draw_raster(pictures, task.options.cancel);
-  built.draw_traced(pictures, 1, task.n, task.options.cancel);
-  pictures.comparison = compare_pictures(pictures);
+  BuiltScene(task).complete(pictures, task.options.cancel);
   return pictures;
 }
 
@@ -147,6 +157,7 @@ void Progressive::submit(PictureTask task) {
   {
     const std::lock_guard lock(mutex_);
     next_ = std::move(task);
+    next_->asked_ms = wall_ms();
     newer_ = true;
   }
   changed_.notify_all();
@@ -201,7 +212,7 @@ void Progressive::draw(const PictureTask& task) {
       if (built_) built->take_tracer(*built_);
       built_ = std::move(built);
     }
-    built_->draw_raster(pictures, &stop_);
+    built_->draw_raster(pictures, Extent::glimpse, 1, &stop_);
     show(pictures);
     refine(pictures);
   } catch (const Interrupted&) {
@@ -214,20 +225,19 @@ void Progressive::draw(const PictureTask& task) {
 
 void Progressive::refine(Pictures& pictures) {
   const PictureTask& task = pictures.task;
-  const int first = first_block(task, pixels_per_ms_);
-  // The first blocks are finished whatever comes; a crop has none.
+  // The first blocks are finished whatever comes, but those of a crop, of which there is no coarser whole.
   std::atomic<bool>* cancel = task.options.crop.width() > 0 ? &newer_ : &stop_;
-  const auto draw_level = [&](int block, int n) {
-    built_->draw_traced(pictures, block, n, cancel);
+  const auto timed = [&](int n, const auto& draw) {
+    draw();
     pixels_per_ms_ =
         static_cast<double>(pictures.traced->pixels()) * n * n / std::max(1e-3, pictures.right.frame_ms);
-    if (pictures.finished) pictures.comparison = compare_pictures(pictures);
     show(pictures);
     cancel = &newer_;
   };
-  for (int block = first; block > 1; block /= 2) draw_level(block, 1);
-  if (task.n > 1) draw_level(1, 1);
-  draw_level(1, task.n);
+  const int last = task.n > 1 ? 1 : 2;  // that is not the final picture yet
+  for (int block = first_block(task, pixels_per_ms_); block >= last; block /= 2)
+    timed(1, [&] { built_->draw_traced(pictures, Extent::glimpse, block, 1, cancel); });
+  timed(task.n, [&] { built_->complete(pictures, cancel); });
 }
 
 void Progressive::show(const Pictures& pictures) {

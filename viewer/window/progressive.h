@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Draws the two pictures on a thread of its own, so that the window never waits: the z-buffer's at once, the tracer's
-// from coarse blocks to fine, each picture shown as soon as it is there. A new task ends the one at work; the last
-// picture of a task that is let finish is the one that a headless run makes, bit for bit. No OpenGL here.
+// from coarse blocks to fine, each picture shown as soon as it is there. On the way only what is looked at is made; all
+// layers and samples come with the last pictures, which are those of a headless run, bit for bit. A new task ends the
+// one at work. No OpenGL here.
 #pragma once
 
 #include <atomic>
@@ -30,8 +31,9 @@ struct PictureTask {
   CameraSettings camera;
   int n = 1;                          // samples per pixel edge
   RenderOptions options;              // threads, isa, crop and faults; the rest is the worker's own
-  bool cost = false;                  // the cost layer too
+  std::optional<Layer> layer;         // that is looked at: there from the first picture on
   std::size_t objects = kAllObjects;  // the z-buffer draws only so many, the first ones
+  double asked_ms = 0;                // when it was submitted, on the clock of wall_ms; tells tasks apart
 
   Camera made_camera() const { return make_camera(camera, scene->width, scene->height, n); }
 };
@@ -41,9 +43,18 @@ struct RendererTimes {
   double per_second = 0;  // rays of all kinds; the z-buffer's are samples
 };
 
+// What the renderers keep of a scene, alive as long as anybody asks them.
+struct Renderers {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const Scene> part;  // its first objects, where the z-buffer draws only those
+  std::shared_ptr<const raster::Prepared> rasterizer;
+  std::shared_ptr<const raytrace::Prepared> tracer;
+};
+
 struct Pictures {
   PictureTask task;  // what `rastered` shows, and `traced` if block > 0
   std::shared_ptr<const Frame> rastered, traced;
+  Renderers renderers;  // that drew `rastered`, and `traced` if block > 0
   int block = 0;          // picture pixels along the edge of one of `traced`; 0: an earlier task's
   bool finished = false;  // both are final
   RendererTimes left, right;

@@ -148,10 +148,11 @@ void Session::act(Action action, const Rect& panel) {
 // ---- Looking ----
 
 void Session::set_mode(Mode mode) {
-  const bool cost_changes = (state_.mode == Mode::cost) != (mode == Mode::cost);
   if (mode == Mode::ledger && state_.mode != mode) state_.ledger_term = 0;
+  const bool other_layer = layer_of(mode) != layer_of(state_.mode);
   state_.mode = mode;
-  if (cost_changes) redraw();
+  // Finished pictures have every layer but the costly one.
+  if (other_layer && (mode == Mode::cost || !worker_.idle())) redraw();
 }
 
 void Session::choose_layer(int by) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/scene/settings.h"
 #include "viewer/window/keys.h"
@@ -32,6 +33,14 @@ std::string explain_command(const WindowState& state);
 
 // Puts step `number` (from 0) of the scene's lesson on the screen. Throws what `open` throws.
 void reveal_step(WindowState& state, int number, const SceneOpener& open);
+
+// By what a saved file is known.
+struct FileStamp {
+  std::string file;
+  std::filesystem::file_time_type time{};
+  std::uintmax_t size = 0;
+  bool operator==(const FileStamp&) const = default;
+};
 
 class Session {
  public:
@@ -65,8 +74,8 @@ class Session {
   void set_slow(int objects, int rows);
   void choose_material(int number) { state_.material = number; }
 
-  // Looks whether the file was saved since; loads it again if so. A mistake in it becomes the notice, and what was
-  // shown stays. Returns whether something changed.
+  // Looks whether the scene's file or one of its meshes' was saved since; loads it again if so. A mistake in it becomes
+  // the notice, and what was shown stays. Returns whether something changed.
   bool watch();
 
   // What the user asked to copy since; for the system's clipboard.
@@ -90,13 +99,12 @@ class Session {
   void zoom(int steps, const Rect& panel);
   void move_camera(const CameraSettings& camera);
   bool try_to(const std::function<void()>& change);
-  void note_file_time();
+  void note_files();
 
   SceneOpener open_;
   WindowState state_;
   bool closed_ = false;
-  std::filesystem::file_time_type file_time_{};
-  std::uintmax_t file_size_ = 0;
+  std::vector<FileStamp> stamps_;  // of the files that are watched
   Progressive worker_;
 };
 

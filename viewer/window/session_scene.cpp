@@ -27,6 +27,17 @@ void start_over(WindowState& state) {
   state.rows = state.scene->height;
 }
 
+std::vector<FileStamp> stamps_of(const std::vector<std::string>& files) {
+  std::vector<FileStamp> out;
+  for (const std::string& file : files) {
+    std::error_code gone;
+    const auto time = std::filesystem::last_write_time(file, gone);
+    const std::uintmax_t size = gone ? 0 : std::filesystem::file_size(file, gone);
+    out.push_back({file, gone ? FileStamp().time : time, size});
+  }
+  return out;
+}
+
 bool inside(const Scene& scene, glm::ivec2 pixel) { return pixel.x < scene.width && pixel.y < scene.height; }
 
 }  // namespace
@@ -61,7 +72,7 @@ void reveal_step(WindowState& state, int number, const SceneOpener& open) {
 
 Session::Session(WindowState state, SceneOpener open, std::function<void()> notify)
     : open_(std::move(open)), state_(std::move(state)), worker_(std::move(notify)) {
-  note_file_time();
+  note_files();
   redraw();
 }
 
@@ -132,19 +143,15 @@ void Session::go_to_step(int step, bool revealed) {
 
 // ---- Files ----
 
-void Session::note_file_time() {
-  std::error_code gone;  // then the next look finds out
-  file_time_ = std::filesystem::last_write_time(state_.file, gone);
-  file_size_ = std::filesystem::file_size(state_.file, gone);
-}
+void Session::note_files() { stamps_ = stamps_of(state_.opened.files); }
 
 bool Session::watch() {
-  std::error_code gone;
-  const auto time = std::filesystem::last_write_time(state_.file, gone);
-  const std::uintmax_t size = gone ? 0 : std::filesystem::file_size(state_.file, gone);
-  if (gone || (time == file_time_ && size == file_size_))
+  const std::vector<std::string> watched = state_.opened.files;
+  const std::vector<FileStamp> now = stamps_of(watched);
+  const auto gone = [](const FileStamp& stamp) { return stamp.time == FileStamp().time; };
+  if (now == stamps_ || std::any_of(now.begin(), now.end(), gone))
     return false;  // gone: an editor is about to replace it
-  note_file_time();
+  stamps_ = now;
   // The view, the mode and the step stay; the camera too, if the user moved it and the file did not.
   const bool loaded = try_to([&] {
     const WindowState before = state_;
@@ -159,7 +166,9 @@ bool Session::watch() {
     if (state_.inspected && !inside(*state_.scene, *state_.inspected)) state_.inspected.reset();
     state_.notice = {};
   });
-  if (loaded) redraw();
+  if (!loaded) return true;
+  if (state_.opened.files != watched) note_files();  // else a save since `now` would be missed
+  redraw();
   return true;
 }
 
@@ -175,7 +184,7 @@ void Session::load(const std::string& file) {
     state_ = std::move(fresh);
   });
   if (!done) return;
-  note_file_time();
+  note_files();
   redraw();
 }
 

@@ -51,6 +51,24 @@ Lines layer_lines(const Frame& frame, Layer layer, std::size_t i) {
   }
 }
 
+// Whether the layer has been made yet: all are only in finished pictures.
+bool has_layer(const Frame& frame, Layer layer) {
+  switch (layer) {
+    case Layer::depth:
+      return !frame.depth.empty();
+    case Layer::object:
+      return !frame.object_id.empty();
+    case Layer::primitive:
+      return !frame.primitive_id.empty();
+    case Layer::normal:
+      return !frame.normal.empty();
+    case Layer::cost:
+      return !frame.cost.empty();
+    default:
+      return !frame.layer(layer).empty();
+  }
+}
+
 Image8 picture_of(const Frame& frame, const Colors& colors) {
   return to_image8(colors, frame.width(), frame.height());
 }
@@ -92,11 +110,13 @@ class ShownMaker {
     return out;
   }
 
+  bool has(Layer layer) const {
+    return has_layer(*pictures_.traced, layer) && (!both_make(layer) || has_layer(*pictures_.rastered, layer));
+  }
   std::vector<ShownPanel> layer(Layer layer) const {
     std::vector<ShownPanel> out;
     const std::string name(kLayerNames[static_cast<std::size_t>(layer)]);
     const auto fill = [&](ShownPanel shown, const SharedFrame& frame, bool at_full) {
-      if (layer == Layer::cost && frame->cost.empty()) return;  // asked for with the mode, not here yet
       shown.image = layer_picture(*frame, layer);
       shown.numbers = numbers_of(frame, at_full,
                                  [layer](const Frame& f, std::size_t i) { return layer_lines(f, layer, i); });
@@ -104,7 +124,6 @@ class ShownMaker {
     };
     if (both_make(layer)) fill(left("z-buffer: " + name), pictures_.rastered, true);
     fill(right("ray tracer: " + name), pictures_.traced, full());
-    if (out.empty()) out.push_back(raster());
     return out;
   }
 
@@ -167,7 +186,11 @@ std::vector<ShownPanel> ledger(const WindowState& state, const Pictures& finishe
 
 std::vector<ShownPanel> panels(const WindowState& state, const Pictures& latest, const Pictures& finished) {
   const ShownMaker now(state, latest), complete(state, finished);
-  if (const auto layer = layer_of(state.mode)) return now.layer(*layer);
+  if (const auto layer = layer_of(state.mode)) {
+    if (now.has(*layer)) return now.layer(*layer);
+    // Asked for with the mode, not here yet.
+    return finished.finished && complete.has(*layer) ? complete.layer(*layer) : std::vector{now.raster()};
+  }
   switch (state.mode) {
     case Mode::raster:
       return {now.raster()};

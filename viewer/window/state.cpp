@@ -12,7 +12,7 @@ PictureTask picture_task(const WindowState& state) {
   task.n = state.n;
   task.options = state.opened.options;
   task.options.faults = state.faults;
-  task.cost = state.mode == Mode::cost;
+  task.layer = layer_of(state.mode);
   if (state.slow) task.objects = static_cast<std::size_t>(state.objects);
   return task;
 }

@@ -20,6 +20,7 @@ namespace sidelight {
 // A scene as its file and the command line say it, before anything was touched.
 struct OpenedScene {
   Scene scene;  // without the faults
+  std::vector<std::string> files;  // it was read from: its own, then those of its meshes
   Faults faults;
   int n = 1;              // samples per pixel edge
   RenderOptions options;  // threads, isa, crop

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "viewer/window/canvas.h"
+#include "viewer/window/frames.h"
 #include "viewer/window/glfw_window.h"
-#include "viewer/window/window_panels.h"
 #endif
 
 namespace sidelight {
@@ -40,7 +40,7 @@ class SessionWindow {
 
   void run() {
     while (glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !session_.closed()) {
-      take_pictures();
+      if (frames_.take_pictures()) touch();
       if (stale_ > 0) redraw();
       // Widgets need a frame more than there are events: one to see the button go down, one to see it up.
       if (stale_ > 0)
@@ -122,9 +122,10 @@ class SessionWindow {
   bool shift() const { return is_down(GLFW_KEY_LEFT_SHIFT) || is_down(GLFW_KEY_RIGHT_SHIFT); }
   bool control() const { return is_down(GLFW_KEY_LEFT_CONTROL) || is_down(GLFW_KEY_RIGHT_CONTROL); }
 
+  const WindowLayout& layout() const { return frames_.layout(); }
   // The panel under the cursor, or else the first.
   const Rect& panel() const {
-    return panel_at(layout_, cursor_) == 1 ? layout_.panels.right : layout_.panels.left;
+    return panel_at(layout(), cursor_) == 1 ? layout().panels.right : layout().panels.left;
   }
 
   void press(const std::string& key) { session_.press(key, panel()); }
@@ -148,7 +149,7 @@ class SessionWindow {
     const bool left = which == GLFW_MOUSE_BUTTON_LEFT;
     if (down && canvas_.wants_pointer()) {
       widget_button_ = left;
-    } else if (down && panel_at(layout_, cursor_) >= 0) {
+    } else if (down && panel_at(layout(), cursor_) >= 0) {
       held_ = which;
       pressed_at_ = cursor_;
       dragged_ = false;
@@ -171,7 +172,7 @@ class SessionWindow {
   }
 
   void drag(glm::dvec2 by) {
-    const Rect& box = layout_.panels.left;
+    const Rect& box = layout().panels.left;
     const View& view = session_.state().view;
     if (held_ == GLFW_MOUSE_BUTTON_RIGHT)
       session_.drag_pictures(by, box);
@@ -185,7 +186,7 @@ class SessionWindow {
   }
 
   void point_at_picture() {
-    const int which = panel_at(layout_, cursor_);
+    const int which = panel_at(layout(), cursor_);
     const glm::dvec2 at =
         (cursor_ - picture_origin(session_.state().view, panel())) / session_.state().view.zoom;
     const glm::dvec2 size(picture_size(session_.state()));
@@ -193,47 +194,12 @@ class SessionWindow {
     session_.point_at(inside ? std::optional(at) : std::nullopt);
   }
 
-  // What the worker has drawn since, as textures; and the records of the inspected pixel, once the picture rests.
-  void take_pictures() {
-    latest_ = session_.worker().latest();
-    finished_ = session_.worker().last_finished();
-    const WindowState& state = session_.state();
-    const ShownKey key = shown_key(state, latest_, finished_);
-    if (!key_ || *key_ != key) {
-      key_ = key;
-      shown_ = show(state, latest_, finished_);
-      canvas_.clear_pictures();
-      textures_.clear();
-      for (const ShownPanel& each : shown_.panels) textures_.push_back(canvas_.add_picture(each.image));
-      touch();
-    }
-    const bool stands = inspection_ && state.inspected == inspection_->pixel &&
-                        inspection_->scene == state.drawn && inspection_->camera.eye == state.camera.eye &&
-                        inspection_->camera.n == state.n;
-    if (!state.inspected) inspection_.reset();
-    if (state.inspected && !stands && session_.worker().idle()) {
-      inspection_ = inspect_pixel(state);
-      touch();
-    }
-  }
-
   void redraw() {
     --stale_;
     const glm::ivec2 size = framebuffer_size();
     if (size.x < 1 || size.y < 1) return;  // minimised
-    canvas_.set_scale(content_scale() * session_.state().text_scale);
-    layout_ = window_layout(session_.state(), size, canvas_.scale());
-    session_.fit_panel(layout_.panels.left);
-    std::vector<Command> commands;
-    canvas_.draw(size.x, size.y, [&] {
-      commands = draw_window(
-          canvas_,
-          {session_.state(), latest_, finished_, shown_, textures_, inspection_ ? &*inspection_ : nullptr},
-          layout_);
-    });
+    if (frames_.draw(size, content_scale())) touch();
     glfwSwapBuffers(window_.get());
-    for (const Command& command : commands) command(session_);
-    if (!commands.empty()) touch();
     if (std::string text = session_.take_clipboard(); !text.empty())
       glfwSetClipboardString(window_.get(), text.c_str());
   }
@@ -242,12 +208,7 @@ class SessionWindow {
   WindowHandle window_;
   Canvas canvas_;
   Session session_;
-  WindowLayout layout_;
-  Pictures latest_, finished_;
-  std::optional<ShownKey> key_;  // of what is in shown_ and textures_
-  Shown shown_;
-  std::vector<void*> textures_;
-  std::optional<Inspection> inspection_;
+  Frames frames_{canvas_, session_};
   glm::dvec2 cursor_{0}, pressed_at_{0};  // device pixels
   int held_ = -1;                         // button that went down on a picture
   bool dragged_ = false, widget_button_ = false;
