@@ -2,6 +2,9 @@
 // sidelight view: the teaching window, or one picture of it drawn off screen.
 #include <fmt/format.h>
 
+#include <sstream>
+
+#include "common/picture/atomic_file.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
@@ -14,7 +17,7 @@ namespace {
 
 struct ViewFlags {
   JobFlags job;
-  std::string mode, inspect, screenshot, window = "1352x648";
+  std::string mode, inspect, press, screenshot, frame_log, window = "1352x648";
   int step = 0;
 };
 
@@ -44,7 +47,13 @@ WindowState first_state(const ViewFlags& flags, const SceneOpener& open) {
   if (!flags.mode.empty()) state.mode = *find_mode(flags.mode);
   if (!flags.inspect.empty())
     state.inspected = parse_pixel(flags.inspect, state.scene->width, state.scene->height, "--inspect");
-  return state;
+  if (flags.press.empty()) return state;
+  // The session draws as it goes; only what it ends with is wanted.
+  Session session(std::move(state), open);
+  std::istringstream keys(flags.press);
+  for (std::string key; keys >> key;)
+    if (!session.press(key, {0, 0, 1, 1})) throw UsageError("--press: no key is called '" + key + "'");
+  return session.state();
 }
 
 int run_view(const ViewFlags& flags) {
@@ -60,7 +69,13 @@ int run_view(const ViewFlags& flags) {
   if (state.faults.any() && !flags.job.quiet) fmt::print(stderr, "faults on purpose: {}\n", state.faults.text());
   if (flags.screenshot.empty()) {
     restore_default_signals();
-    return run_window(std::move(state), open);
+    FrameLog log;
+    const int code = run_window(std::move(state), open, &log);
+    if (!flags.frame_log.empty()) {
+      write_text_file(flags.frame_log, log.csv());
+      fmt::print(stderr, "{}", log.summary());
+    }
+    return code;
   }
   const Job job = load_job(opening);   // for the metadata
   write_png(flags.screenshot, screenshot(state, render_pictures(picture_task(state)), window.x, window.y),
@@ -83,13 +98,13 @@ void add_view_command(CLI::App& app, int& exit_code) {
       ->type_name("N")
       ->check(CLI::Range(1, 100).description(""));
   verb->add_option("--inspect", flags->inspect, "the pixel x,y is inspected first");
+  verb->add_option("--press", flags->press, "these keys are pressed first, as in \"t t c\"")->type_name("KEYS");
   verb->add_flag("--no-times", flags->job.no_times, "leave times out");
   verb->add_option("--screenshot", flags->screenshot, "draw the window off screen into FILE.png instead");
+  verb->add_option("--frame-log", flags->frame_log, "write every frame's times to FILE.csv at the end");
   verb->add_option("--size", flags->window, "size of that window")->capture_default_str();
   verb->footer(
-      "In the window h shows the keys.\n"
-      "Examples:\n"
-      "  sidelight view scenes/showcase.toml\n"
+      "In the window h shows the keys. Example:\n"
       "  sidelight view scenes/07-mirrors.toml --mode causes --inspect 20,20 --screenshot mirrors.png");
   verb->callback([flags, &exit_code] { exit_code = run_view(*flags); });
 }

@@ -18,6 +18,27 @@ constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.t
 constexpr ImWchar kGlyphs[] = {0x0020, 0x017F, 0x0370, 0x03FF, 0x2010, 0x2027, 0x2030, 0x205E,
                                0x2070, 0x209C, 0x2190, 0x21FF, 0x2200, 0x22FF, 0};
 
+// The keys that widgets know, each with a number of ours. Enter is one more Space: to ImGui it would mean typing a number.
+struct WidgetKey {
+  ImGuiKey key;
+  std::string_view name;
+  int number;
+};
+constexpr WidgetKey kWidgetKeys[] = {{ImGuiKey_LeftArrow, "Left", 1},
+                                     {ImGuiKey_RightArrow, "Right", 2},
+                                     {ImGuiKey_UpArrow, "Up", 3},
+                                     {ImGuiKey_DownArrow, "Down", 4},
+                                     {ImGuiKey_Space, "Space", 5}};
+constexpr std::string_view kShift = "Shift+";
+
+std::optional<int> number_of(std::string_view key) {
+  if (key.starts_with(kShift)) key.remove_prefix(kShift.size());
+  if (key == "Enter") key = "Space";
+  for (const WidgetKey& each : kWidgetKeys)
+    if (each.name == key) return each.number;
+  return {};
+}
+
 // Makes a context ImGui's current one for the length of a scope, alone in the process.
 class CurrentContext {
  public:
@@ -69,6 +90,8 @@ Canvas::Canvas(GlLoader loader, double scale)
   io.LogFilename = nullptr;
   io.BackendRendererName = "sidelight";
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  for (const auto& [key, name, number] : kWidgetKeys) io.KeyMap[key] = number;
   load_fonts();
 }
 
@@ -121,9 +144,25 @@ void Canvas::set_pointer(glm::dvec2 position, bool left_down, double wheel) {
   io.MouseWheel += static_cast<float>(wheel);
 }
 
+bool Canvas::press_key(std::string_view key) {
+  if (!number_of(key)) return false;
+  keys_.emplace_back(key);
+  return true;
+}
+
+void Canvas::move_keys() {
+  if (keys_.empty()) return;
+  ImGuiIO& io = ImGui::GetIO();
+  key_down_ = !key_down_;
+  io.KeysDown[*number_of(keys_.front())] = key_down_;
+  io.KeyShift = key_down_ && keys_.front().starts_with(kShift);
+  if (!key_down_) keys_.pop_front();
+}
+
 void Canvas::draw(int width, int height, const std::function<void()>& contents) {
   const CurrentContext current(context_.get());
   ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+  move_keys();
   ImGui::NewFrame();
   try {
     contents();

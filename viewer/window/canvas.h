@@ -10,10 +10,13 @@
 
 #include <imgui.h>
 
+#include <deque>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/picture/image_io.h"
@@ -53,6 +56,11 @@ class Canvas {
   // The widgets of the last frame want the mouse: it is over one, or one is held.
   bool wants_pointer() const { return wants_pointer_; }
 
+  // A key for the widgets that have the keyboard: an arrow (with "Shift+" a slider goes faster), "Space" or "Enter". It is
+  // down for one frame and up for the next; several wait for each other. False for any other key.
+  bool press_key(std::string_view key);
+  bool has_keys_waiting() const { return !keys_.empty(); }
+
   // One frame: `contents` calls ImGui, and the result is painted over the framebuffer of width x height. No
   // canvas may be used within `contents` but this one's fonts. What `contents` throws passes through.
   void draw(int width, int height, const std::function<void()>& contents);
@@ -61,6 +69,7 @@ class Canvas {
   void finish() const { gl_.Finish(); }
 
  private:
+  void move_keys();
   void set_style();
   void load_fonts();
 
@@ -76,6 +85,8 @@ class Canvas {
   std::vector<GlObject> pictures_;
   std::unique_ptr<ImGuiContext, DestroyContext> context_;
   bool wants_pointer_ = false;
+  std::deque<std::string> keys_;  // the first one may be down
+  bool key_down_ = false;
 };
 
 }  // namespace sidelight

@@ -123,6 +123,12 @@ void draw_controls(const Canvas& canvas, const WindowContents& contents, const R
   ImGui::Begin("##controls", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  follow_keys(state, KeyTarget::controls);
+  ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
+  ImGui::TextWrapped(key_target(state) == KeyTarget::controls
+                         ? "Arrows choose, Space takes a slider and lets it go. Esc: back"
+                         : "Tab: with the keyboard");
+  ImGui::PopStyleColor();
   ImGui::PushItemWidth(-0.3f * static_cast<float>(box.width()));
   heading(canvas, "Rays");
   draw_trace(state, out);

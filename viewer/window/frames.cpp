@@ -45,6 +45,11 @@ bool Frames::take_pictures() {
   return true;
 }
 
+void Frames::press(const std::string& key, const Rect& panel) {
+  const bool to_widgets = key_target(session_.state()) != KeyTarget::pictures && canvas_.press_key(key);
+  if (!to_widgets) session_.press(key, panel);
+}
+
 bool Frames::draw(glm::ivec2 size, double content_scale) {
   const double start = wall_ms();
   const WindowState& state = session_.state();
@@ -63,7 +68,7 @@ bool Frames::draw(glm::ivec2 size, double content_scale) {
   last_.at = start;
   last_.draw = wall_ms() - start;
   next_ = {};
-  return !commands.empty();
+  return !commands.empty() || canvas_.has_keys_waiting();
 }
 
 }  // namespace sidelight

@@ -49,8 +49,11 @@ class Frames {
 
   // Takes what the worker has drawn since. True if a frame drawn now would show something new.
   bool take_pictures();
-  // Draws a frame of `size` device pixels. True if something was pressed in it, so that another one is due.
+  // Draws a frame of `size` device pixels. True if another one is due: something was pressed in it, or keys wait.
   bool draw(glm::ivec2 size, double content_scale);
+
+  // A key goes to the panel that Tab chose, if its widgets know it, else to the session.
+  void press(const std::string& key, const Rect& panel);
 
   const FrameContents& contents() const { return contents_; }
   const WindowLayout& layout() const { return layout_; }

@@ -39,6 +39,10 @@ std::string key_name(int key, int modifiers) {
   switch (key) {
     case GLFW_KEY_ESCAPE:
       return "Esc";
+    case GLFW_KEY_TAB:
+      return "Tab";
+    case GLFW_KEY_ENTER:
+      return "Enter";
     case GLFW_KEY_HOME:
       return "Home";
     case GLFW_KEY_PAGE_UP:

@@ -38,18 +38,26 @@ std::string cursor_text(const WindowContents& contents) {
   return out + fmt::format("   pixel {},{}", pixel.x, pixel.y);
 }
 
-struct ModeButton {
+struct LabelledAction {
   const char* label;
   Action action;
 };
-constexpr std::array<ModeButton, 8> kButtons{{{"1 both", Action::side_by_side},
-                                              {"2 swipe", Action::swipe},
-                                              {"3 flip", Action::flip},
-                                              {"4 difference", Action::difference},
-                                              {"5 causes", Action::causes},
-                                              {"6 ledger", Action::ledger},
-                                              {"7 layer", Action::next_layer},
-                                              {"9 one", Action::next_alone}}};
+constexpr std::array<LabelledAction, 12> kButtons{{{"1 both", Action::side_by_side},
+                                                   {"2 swipe", Action::swipe},
+                                                   {"3 flip", Action::flip},
+                                                   {"4 difference", Action::difference},
+                                                   {"5 causes", Action::causes},
+                                                   {"6 ledger", Action::ledger},
+                                                   {"7 layer", Action::next_layer},
+                                                   {"9 one", Action::next_alone},
+                                                   {"o slow", Action::slow_motion},
+                                                   {"c controls", Action::controls},
+                                                   {"n lesson", Action::next_step},
+                                                   {"h help", Action::help}}};
+
+bool is_there(const WindowState& state, Action action) {
+  return action != Action::next_step || !state.opened.scene.steps.empty();
+}
 
 bool is_on(const WindowState& state, Action action) {
   switch (action) {
@@ -80,15 +88,33 @@ bool is_on(const WindowState& state, Action action) {
   }
 }
 
-void button(const WindowState& state, const char* label, Action action, std::vector<Command>& out) {
-  const bool on = is_on(state, action);
+void button(const WindowState& state, const LabelledAction& each, std::vector<Command>& out) {
+  const bool on = is_on(state, each.action);
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.26f, 0.47f, 0.72f, 1));
-  if (ImGui::Button(label)) out.push_back([action](Session& session) { session.act(action, {}); });
+  if (ImGui::Button(each.label))
+    out.push_back([action = each.action](Session& session) { session.act(action, {}); });
   if (on) ImGui::PopStyleColor();
-  ImGui::SameLine();
+}
+
+// What the lesson's panel says: the step, or else what the scene is about.
+std::string lesson_text(const WindowState& state) {
+  const Scene& scene = state.opened.scene;
+  if (state.step >= 0 && state.step < static_cast<int>(scene.steps.size()))
+    return scene.steps[static_cast<std::size_t>(state.step)].text;
+  return scene.lesson.empty() ? "This scene has no lesson." : scene.lesson;
 }
 
 }  // namespace
+
+int button_rows(const WindowState& state, int width, double scale) {
+  constexpr double kAround = 2 * 9;  // FramePadding of canvas.cpp
+  std::vector<double> widths;
+  for (const LabelledAction& each : kButtons)
+    if (is_there(state, each.action))
+      widths.push_back(kAround * scale +
+                       text_width_bound(std::string_view(each.label).size(), kSmallText * scale));
+  return flow_rows(widths, 8 * scale, width);
+}
 
 void draw_buttons(const Canvas& canvas, const WindowContents& contents, const Rect& box,
                   std::vector<Command>& out) {
@@ -97,14 +123,16 @@ void draw_buttons(const Canvas& canvas, const WindowContents& contents, const Re
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
   {
     const DockWindow window("##buttons", box);
-    for (const ModeButton& each : kButtons) button(contents.state, each.label, each.action, out);
-    button(contents.state, "o slow", Action::slow_motion, out);
-    button(contents.state, "c controls", Action::controls, out);
-    if (!contents.state.opened.scene.steps.empty())
-      button(contents.state, "n lesson", Action::next_step, out);
-    button(contents.state, "h help", Action::help, out);
+    const auto width = static_cast<float>(box.width());
+    const float padding = 2 * ImGui::GetStyle().FramePadding.x;
+    for (const LabelledAction& each : kButtons) {
+      if (!is_there(contents.state, each.action)) continue;
+      if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(each.label).x + padding > width) ImGui::NewLine();
+      button(contents.state, each, out);
+      ImGui::SameLine();
+    }
     const std::string where = cursor_text(contents);
-    const float right = static_cast<float>(box.width()) - ImGui::CalcTextSize(where.c_str()).x;
+    const float right = width - ImGui::CalcTextSize(where.c_str()).x;
     if (right > ImGui::GetCursorPosX()) {
       ImGui::SetCursorPosX(right);
       ImGui::AlignTextToFramePadding();
@@ -115,39 +143,50 @@ void draw_buttons(const Canvas& canvas, const WindowContents& contents, const Re
   ImGui::PopStyleColor();
 }
 
+int lesson_rows(const WindowState& state, int width, double scale) {
+  const double height = (state.step >= 0 ? kTitleText : kCaptionText) * scale;
+  const std::string words = lesson_text(state);
+  int rows = 0;
+  for (std::size_t at = 0; at <= words.size();) {
+    const std::size_t end = std::min(words.find('\n', at), words.size());
+    // Running text is 0.46 of its height a character, and loses a little at the end of a row.
+    rows += 1 + static_cast<int>(0.5 * height * static_cast<double>(end - at) / std::max(1, width));
+    at = end + 1;
+  }
+  return rows;
+}
+
 void draw_lesson(const Canvas& canvas, const WindowContents& contents, const Rect& box) {
   const WindowState& state = contents.state;
-  const std::vector<Step>& steps = state.opened.scene.steps;
   const DockWindow window("##lesson", box);
-  if (state.step >= 0 && state.step < static_cast<int>(steps.size())) {
-    ImGui::PushFont(canvas.fonts().title);
-    ImGui::PushStyleColor(ImGuiCol_Text, kText);
-    paragraphs(steps[static_cast<std::size_t>(state.step)].text);
-    ImGui::PopStyleColor();
-    ImGui::PopFont();
-    ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
-    text(fmt::format("step {} of {}{}", state.step + 1, steps.size(),
-                     state.revealed ? "" : "   predict, then press n to see"));
-    ImGui::PopStyleColor();
-  } else {
-    ImGui::PushFont(canvas.fonts().caption);
-    const std::string& lesson = state.opened.scene.lesson;
-    paragraphs(lesson.empty() ? "This scene has no lesson." : lesson);
-    ImGui::PopFont();
-  }
+  follow_keys(state, KeyTarget::lesson);
+  ImGui::PushFont(state.step >= 0 ? canvas.fonts().title : canvas.fonts().caption);
+  paragraphs(lesson_text(state));
+  ImGui::PopFont();
+  if (state.step < 0) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
+  text(fmt::format("step {} of {}{}", state.step + 1, state.opened.scene.steps.size(),
+                   state.revealed ? "" : "   predict, then press n to see"));
+  ImGui::PopStyleColor();
 }
 
 void draw_help(const Canvas& canvas, const Rect& box) {
   ImGui::SetNextWindowFocus();
   const DockWindow window("##help", box);
+  // All keys at once, if need be in smaller letters: so much room they take at scale 1.
+  constexpr double kWidth = 1290, kHeight = 590;
+  const double fitting =
+      std::min({1.0, box.width() / (kWidth * canvas.scale()), box.height() / (kHeight * canvas.scale())});
+  const double scale = canvas.scale() * fitting;
+  ImGui::SetWindowFontScale(static_cast<float>(fitting));
   ImGui::PushFont(canvas.fonts().title);
   text("Keys");
   ImGui::PopFont();
   const auto groups = key_help();
   const float column = static_cast<float>(box.width()) / static_cast<float>(groups.size());
-  const float top = ImGui::GetCursorPosY() + static_cast<float>(8 * canvas.scale());
+  const float top = ImGui::GetCursorPosY() + static_cast<float>(8 * scale);
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const float left = static_cast<float>(i) * column + static_cast<float>(16 * canvas.scale());
+    const float left = static_cast<float>(i) * column + static_cast<float>(16 * scale);
     ImGui::SetCursorPos({left, top});
     ImGui::BeginGroup();
     ImGui::PushStyleColor(ImGuiCol_Text, kLeftAccent);
@@ -155,15 +194,17 @@ void draw_help(const Canvas& canvas, const Rect& box) {
     text(std::string(groups[i].title));
     ImGui::PopFont();
     ImGui::PopStyleColor();
+    ImGui::PushFont(canvas.fonts().caption);
     for (const KeyHelp& line : groups[i].lines) {
       ImGui::PushStyleColor(ImGuiCol_Text, kRightAccent);
       text(std::string(line.keys));
       ImGui::PopStyleColor();
       ImGui::SameLine(column * 0.42f);
-      ImGui::PushTextWrapPos(left + column - static_cast<float>(16 * canvas.scale()));
+      ImGui::PushTextWrapPos(left + column - static_cast<float>(16 * scale));
       text(std::string(line.text));
       ImGui::PopTextWrapPos();
     }
+    ImGui::PopFont();
     ImGui::EndGroup();
   }
 }

@@ -19,16 +19,50 @@ constexpr double kQuarter = 1.57079632679489661923;
 
 void text(const std::string& words) { ImGui::TextUnformatted(words.data(), words.data() + words.size()); }
 
+// A line of words, broken at spaces only (a number stays whole), each row under the line's own beginning: the tree of
+// rays still shows.
+void wrapped_line(std::string_view line) {
+  const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+  const float indent = 2 * ImGui::CalcTextSize(" ").x * static_cast<float>(first);
+  line.remove_prefix(first);
+  const auto width = [&](std::size_t length) {
+    return ImGui::CalcTextSize(line.data(), line.data() + length).x;
+  };
+  do {
+    std::size_t length = line.size();
+    while (width(length) > ImGui::GetContentRegionAvail().x - indent) {
+      const std::size_t space = line.rfind(' ', length - 1);
+      if (space == std::string_view::npos || space == 0) break;
+      length = space;
+    }
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
+    ImGui::TextUnformatted(line.data(), line.data() + length);
+    line.remove_prefix(std::min(length + 1, line.size()));
+  } while (!line.empty());
+}
+
+void wrapped(const std::string& words) {
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t end = std::min(words.find('\n', at), words.size());
+    wrapped_line(std::string_view(words).substr(at, end - at));
+    at = end + 1;
+  }
+}
+
 // A column of text that scrolls on its own, under a coloured heading.
-void column(const Canvas& canvas, const char* name, float width, ImU32 accent, const std::string& heading,
-            const std::string& words) {
-  ImGui::BeginChild(name, ImVec2(width, 0), false, ImGuiWindowFlags_HorizontalScrollbar);
+void column(const Canvas& canvas, const WindowState& state, KeyTarget side, float width,
+            const std::string& heading, const std::string& words) {
+  const bool left = side == KeyTarget::fragments;
+  ImGui::BeginChild(left ? "##fragments" : "##rays", ImVec2(width, 0));
+  follow_keys(state, side);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, point(0, 1));
   ImGui::PushFont(canvas.fonts().caption);
-  ImGui::PushStyleColor(ImGuiCol_Text, accent);
-  text(heading);
+  ImGui::PushStyleColor(ImGuiCol_Text, left ? kLeftAccent : kRightAccent);
+  wrapped(heading);
   ImGui::PopStyleColor();
   ImGui::PopFont();
-  text(words);
+  wrapped(words);
+  ImGui::PopStyleVar();
   ImGui::EndChild();
 }
 
@@ -49,9 +83,9 @@ void draw_arrow(ImDrawList& list, const ImFont& font, glm::dvec2 foot, glm::dvec
 void draw_lobe(const Canvas& canvas, const Lobe& lobe, const Rect& box) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const double s = canvas.scale(), line = 1.3 * kSmallText * s;
-  const double reach = std::min(box.width() * 0.42, box.height() - 3.6 * line);
+  const double reach = std::min(box.width() * 0.42, box.height() - 4.4 * line);
   if (reach < 20 * s) return;
-  const glm::dvec2 foot((box.x0 + box.x1) / 2.0, box.y1 - 2.4 * line);
+  const glm::dvec2 foot((box.x0 + box.x1) / 2.0, box.y1 - 3.2 * line);
   const ImFont& font = *canvas.fonts().small;
   const auto width = static_cast<float>(2 * s);
   list.AddLine(point(foot - glm::dvec2(reach * 1.1, 0)), point(foot + glm::dvec2(reach * 1.1, 0)), kFrame,
@@ -75,9 +109,9 @@ void draw_lobe(const Canvas& canvas, const Lobe& lobe, const Rect& box) {
   draw_arrow(list, font, foot, 0.9 * reach * towards(viewer), kRightAccent, width, "V");
   list.AddCircleFilled(point(foot + reach * radius(lobe.view_angle) * towards(viewer)), 2.5f * width,
                        kRightAccent);
-  const std::string words = fmt::format("light {}: cos({:.1f}\u00B0)^{:g} = {:.4g}", lobe.light + 1,
+  const std::string words = fmt::format("light {}:\ncos({:.1f}\u00B0)^{:g} = {:.4g}", lobe.light + 1,
                                         lobe.view_angle * 90 / kQuarter, lobe.shininess, lobe.value);
-  list.AddText(&font, font.FontSize, point(box.x0, box.y1 - 1.5 * line), kText, words.c_str());
+  list.AddText(&font, font.FontSize, point(box.x0, box.y1 - 2.2 * line), kText, words.c_str());
 }
 
 std::string sample_heading(const Inspection& inspection, const ExplainedSample& sample) {
@@ -96,25 +130,27 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
     left += sample_heading(inspection, sample) + raster_words(*inspection.scene, sample.raster, 0);
     right += sample_heading(inspection, sample) + ray_words(*inspection.scene, sample.raytrace, 0);
   }
-  const std::string pixel = fmt::format("pixel {},{}  ", inspection.pixel.x, inspection.pixel.y);
+  std::string heading = fmt::format("pixel {},{}: z-buffer {}", inspection.pixel.x, inspection.pixel.y,
+                                    color_text(mean_color(inspection.samples, Side::raster)));
+  if (contents.state.faults.any()) heading += "\ntold as without the faults on purpose";
   const float whole = ImGui::GetContentRegionAvail().x, gap = ImGui::GetStyle().ItemSpacing.x;
-  const std::optional<Lobe> lobe = specular_lobe(inspection);
-  const float copy = ImGui::CalcTextSize("y copy as command").x + 2 * ImGui::GetStyle().FramePadding.x;
-  const float plot = std::max(copy, static_cast<float>(std::min(260 * canvas.scale(), box.width() / 4.0)));
-  const float side = (whole - plot) / 2 - gap;
+  // The middle is for the plot; where letters are large the words need it more.
+  const bool plotted = box.width() > 900 * canvas.scale();
+  const auto middle = plotted ? static_cast<float>(std::min(260 * canvas.scale(), box.width() / 5.0)) : 0.0f;
+  const float side = (whole - middle) / 2 - gap;
   const ImVec2 top = ImGui::GetCursorScreenPos();
-  column(canvas, "##fragments", side, kLeftAccent,
-         pixel + "z-buffer " + color_text(mean_color(inspection.samples, Side::raster)), left);
-  if (lobe) {
+  column(canvas, contents.state, KeyTarget::fragments, side, heading, left);
+  if (plotted) {
+    ImGui::SetCursorScreenPos({top.x + side + gap, top.y});
+    if (ImGui::Button("y copy as command"))
+      out.push_back([](Session& session) { session.act(Action::copy_command, {}); });
     const int x = static_cast<int>(top.x + side + gap);
-    draw_lobe(canvas, *lobe,
-              {x, static_cast<int>(top.y + 2 * ImGui::GetFontSize()), x + static_cast<int>(plot), box.y1});
+    if (const std::optional<Lobe> lobe = specular_lobe(inspection))
+      draw_lobe(canvas, *lobe,
+                {x, static_cast<int>(top.y + 2 * ImGui::GetFontSize()), x + static_cast<int>(middle), box.y1});
   }
-  ImGui::SetCursorScreenPos({top.x + side + gap, top.y});
-  if (ImGui::Button("y copy as command"))
-    out.push_back([](Session& session) { session.act(Action::copy_command, {}); });
-  ImGui::SetCursorScreenPos({top.x + side + 2 * gap + plot, top.y});
-  column(canvas, "##rays", side - gap, kRightAccent,
+  ImGui::SetCursorScreenPos({top.x + whole - side, top.y});
+  column(canvas, contents.state, KeyTarget::rays, side,
          "ray tracer " + color_text(mean_color(inspection.samples, Side::raytrace)), right);
 }
 

@@ -57,6 +57,7 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {"s", Action::save},
     {"z", Action::reset},
     {"c", Action::controls},
+    {"Tab", Action::next_panel},
     {"l", Action::lesson},
     {"t", Action::text_size},
     {"h", Action::help},
@@ -89,6 +90,7 @@ constexpr auto kMoving = std::to_array<KeyHelp>({
     {"f g r", "shadows, reflection, refraction"},
     {"a A", "more, fewer samples"},
     {"c", "controls"},
+    {"Tab", "arrows, Space to the next open panel"},
     {"z", "reset"},
     {"s", "save as a new scene"},
 });

@@ -54,6 +54,7 @@ enum class Action {
   save,
   reset,
   controls,
+  next_panel,
   lesson,
   text_size,
   help,

@@ -14,7 +14,9 @@
 //     +---------------------------------------------+
 #pragma once
 
+#include <cstddef>
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "common/picture/frame.h"
 
@@ -22,6 +24,7 @@ namespace sidelight {
 
 // Font heights in device pixels at scale 1.
 inline constexpr double kTitleText = 28, kCaptionText = 21, kSmallText = 17;
+inline constexpr double kLegendLine = 1.4 * kCaptionText;
 
 // Which lines there are room for, and how large a pixel of text is (2 on a high-DPI screen).
 struct LayoutOptions {
@@ -54,5 +57,12 @@ Layout joined(const Layout& layout);
 // The panel size for pictures of `picture` pixels at zoom 1: the picture, widened if it is too narrow for
 // captions.
 glm::ivec2 panel_for(glm::ivec2 picture, const LayoutOptions& options);
+
+// No narrower than so many characters of our font, which is that many device pixels high.
+double text_width_bound(std::size_t characters, double height);
+
+// The rows that items of these widths take, side by side with gaps while they fit into `width`: at least 1. Narrower
+// items never take more rows.
+int flow_rows(const std::vector<double>& widths, double gap, double width);
 
 }  // namespace sidelight

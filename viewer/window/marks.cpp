@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is written on the pictures: the linked cursor, the numbers of pixels when far in, the legend of the causes, the
-// inspected pixel and its rays.
+// What is written on the pictures: the linked cursor, the numbers of pixels when far in, the inspected pixel and its
+// rays.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -20,13 +20,6 @@ namespace {
 
 // From this zoom on there is room for the numbers of a pixel.
 constexpr double kNumbersZoom = 48;
-
-// In the order of SegmentKind. The rays have the colours of their causes.
-constexpr std::array<ImU32, 5> kSegmentColors{IM_COL32(255, 176, 60, 255), IM_COL32(60, 220, 160, 255),
-                                              IM_COL32(200, 200, 200, 255), IM_COL32(255, 240, 140, 255),
-                                              IM_COL32(90, 150, 255, 255)};
-constexpr std::array<const char*, 5> kSegmentNames{"mirrored", "refracted", "straight on", "to a light: free",
-                                                   "to a light: blocked"};
 
 struct OnePanel {
   const ShownPanel* shown;
@@ -113,8 +106,8 @@ void draw_segment(ImDrawList& list, const Camera& camera, RaySegment segment, co
   };
   const glm::dvec2 from = on_screen(segment.from), to = on_screen(segment.to);
   list.AddLine(point(from), point(to), IM_COL32(0, 0, 0, 160), width * 2);
-  list.AddLine(point(from), point(to), kSegmentColors[static_cast<std::size_t>(segment.kind)], width);
-  list.AddCircleFilled(point(to), width * 1.6f, kSegmentColors[static_cast<std::size_t>(segment.kind)]);
+  list.AddLine(point(from), point(to), segment_color(segment.kind), width);
+  list.AddCircleFilled(point(to), width * 1.6f, segment_color(segment.kind));
 }
 
 void draw_rays(const Canvas& canvas, ImDrawList& list, const WindowContents& contents, const Rect& box) {
@@ -127,57 +120,6 @@ void draw_rays(const Canvas& canvas, ImDrawList& list, const WindowContents& con
   const glm::dvec2 origin = picture_origin(contents.state.view, box) - zoom * glm::dvec2(part.x0, part.y0);
   for (const RaySegment& segment : ray_segments(inspection))
     draw_segment(list, camera, segment, origin, zoom, static_cast<float>(2 * canvas.scale()));
-}
-
-struct LegendLine {
-  ImU32 color;
-  std::string text;
-};
-
-// Lines in the lower left corner of a panel.
-void draw_legend(const Canvas& canvas, ImDrawList& list, const Rect& box,
-                 const std::vector<LegendLine>& lines) {
-  if (lines.empty()) return;
-  const ImFont& font = *canvas.fonts().caption;
-  const double s = canvas.scale(), line = 1.3 * static_cast<double>(font.FontSize), pad = 12 * s;
-  double width = 0;
-  for (const LegendLine& each : lines)
-    width =
-        std::max(width, static_cast<double>(font.CalcTextSizeA(font.FontSize, 1e6f, 0, each.text.c_str()).x));
-  const glm::dvec2 low(box.x0 + pad, box.y1 - pad - line * static_cast<double>(lines.size()) - pad);
-  const glm::dvec2 high(low.x + width + 2 * pad + line, box.y1 - pad);
-  list.AddRectFilled(point(low), point(high), IM_COL32(22, 24, 29, 225), static_cast<float>(5 * s));
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const glm::dvec2 at = low + glm::dvec2(pad, pad / 2 + line * static_cast<double>(i));
-    list.AddRectFilled(point(at + glm::dvec2(0, 0.15 * line)), point(at + glm::dvec2(0.7 * line, 0.8 * line)),
-                       lines[i].color);
-    list.AddText(&font, font.FontSize, point(at + glm::dvec2(line, 0)), kText, lines[i].text.c_str());
-  }
-}
-
-std::vector<LegendLine> cause_legend(const WindowContents& contents) {
-  std::vector<LegendLine> out;
-  if (contents.state.mode != Mode::causes || !contents.finished.comparison) return out;
-  const Comparison& comparison = *contents.finished.comparison;
-  const std::vector<std::string> lines = cause_lines(comparison);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const glm::vec3& hue = kCauseHues[i];
-    out.push_back({IM_COL32(encode_srgb8(hue.x), encode_srgb8(hue.y), encode_srgb8(hue.z), 255), lines[i]});
-  }
-  out.push_back({kFrame, fmt::format("other surfaces seen: {}   unexplained: {}",
-                                     comparison.visibility_mismatches, comparison.unexplained)});
-  return out;
-}
-
-std::vector<LegendLine> ray_legend(const WindowContents& contents) {
-  std::vector<LegendLine> out;
-  if (!contents.inspection) return out;
-  std::array<bool, kSegmentColors.size()> used{};
-  for (const RaySegment& segment : ray_segments(*contents.inspection))
-    used[static_cast<std::size_t>(segment.kind)] = true;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) out.push_back({kSegmentColors[i], kSegmentNames[i]});
-  return out;
 }
 
 }  // namespace
@@ -197,9 +139,6 @@ void draw_marks(const Canvas& canvas, const WindowContents& contents, const Wind
     draw_cursor(canvas, list, contents, panel.box);
     list.PopClipRect();
   }
-  draw_legend(canvas, list, layout.panels.left, cause_legend(contents));
-  const Rect& last = layout.panels.right.width() > 0 ? layout.panels.right : layout.panels.left;
-  if (contents.state.mode != Mode::causes) draw_legend(canvas, list, last, ray_legend(contents));
 }
 
 }  // namespace sidelight

@@ -53,13 +53,22 @@ void draw_caption(const Canvas& canvas, ImDrawList& list, const Caption& caption
   const Rect both{name_box.x0, name_box.y0, name_box.x1, std::max(name_box.y1, times_box.y1)};
   list.AddRectFilled(point(both.x0, both.y0 + inset),
                      point(std::min(both.x0 + bar, both.x1), both.y1 - inset * 2), accent);
-  const auto indented = [&](Rect box) { return Rect{box.x0 + indent, box.y0, box.x1, box.y1}; };
-  draw_line(list, *canvas.fonts().caption, indented(name_box), kText, caption.name);
-  if (caption.times)
-    draw_line(list, *canvas.fonts().small, indented(times_box), kQuiet,
-              "build " + milliseconds(caption.times->build_ms) + ", frame " +
-                  milliseconds(caption.times->frame_ms) +
-                  (caption.times->rate.empty() ? "" : ", " + caption.times->rate));
+  // Where there is no room for all, the name alone, and the frame's time alone.
+  const auto draw = [&](const ImFont& font, Rect box, ImU32 color, const std::string& all,
+                        const std::string& less) {
+    box.x0 += indent;
+    const bool fits = font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, printable(all).c_str()).x <=
+                      static_cast<float>(box.width());
+    draw_line(list, font, box, color, fits ? all : less);
+  };
+  draw(*canvas.fonts().caption, name_box, kText, caption.name,
+       caption.name.substr(0, caption.name.find(':')));
+  if (!caption.times) return;
+  const std::string frame = "frame " + milliseconds(caption.times->frame_ms);
+  const std::string& rate = caption.times->rate;
+  draw(*canvas.fonts().small, times_box, kQuiet,
+       "build " + milliseconds(caption.times->build_ms) + ", " + frame + (rate.empty() ? "" : ", " + rate),
+       frame);
 }
 
 void draw_picture(ImDrawList& list, ImTextureID texture, glm::ivec2 size, const View& view,

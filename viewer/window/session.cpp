@@ -130,6 +130,8 @@ void Session::act(Action action, const Rect& panel) {
       return reset();
     case Action::controls:
       return toggle(state_.controls);
+    case Action::next_panel:
+      return next_panel();
     case Action::lesson:
       return toggle(state_.lesson);
     case Action::text_size:
@@ -153,6 +155,16 @@ void Session::set_mode(Mode mode) {
   state_.mode = mode;
   // Finished pictures have every layer but the costly one.
   if (other_layer && (mode == Mode::cost || !worker_.idle())) redraw();
+}
+
+// Tab goes round the open panels, and past the last one back to the pictures.
+void Session::next_panel() {
+  constexpr int kTargets = 5;
+  const int now = static_cast<int>(key_target(state_));
+  for (int i = 1; i <= kTargets; ++i) {
+    state_.keys = static_cast<KeyTarget>((now + i) % kTargets);
+    if (is_open(state_, state_.keys)) return;
+  }
 }
 
 void Session::choose_layer(int by) {
@@ -241,6 +253,8 @@ void Session::step_slow(int by) {
 void Session::escape() {
   if (state_.help)
     state_.help = false;
+  else if (key_target(state_) != KeyTarget::pictures)
+    state_.keys = KeyTarget::pictures;
   else if (!state_.notice.text.empty())
     state_.notice = {};
   else if (state_.inspected)

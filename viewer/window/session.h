@@ -93,6 +93,7 @@ class Session {
   void copy();
   void save();
   void escape();
+  void next_panel();
   void choose_layer(int by);
   void swap_or_advance();
   void step_slow(int by);

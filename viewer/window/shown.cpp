@@ -235,7 +235,7 @@ std::vector<std::string> cause_lines(const Comparison& comparison) {
                                            &comparison.refraction};
   std::vector<std::string> out;
   for (std::size_t i = 0; i < causes.size(); ++i)
-    out.push_back(fmt::format("{}: {:.1f} % of the pixels, mean {:.4f}", kCauseNames[i],
+    out.push_back(fmt::format("{}: {:.1f} % of pixels, mean {:.4f}", kCauseNames[i],
                               100 * static_cast<double>(causes[i]->pixels) / pixels, causes[i]->energy));
   return out;
 }

@@ -38,7 +38,7 @@ struct ShownKey {
 };
 ShownKey shown_key(const WindowState& state, const Pictures& latest, const Pictures& finished);
 
-// What the causes map says beside its colours: "shadow: 12.3 % of the pixels, mean 0.031".
+// What the causes map says beside its colours: "shadow: 12.3 % of pixels, mean 0.0310".
 std::vector<std::string> cause_lines(const Comparison& comparison);
 
 }  // namespace sidelight

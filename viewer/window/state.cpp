@@ -27,6 +27,25 @@ std::string window_title(const WindowState& state) {
   return state.faults.any() ? fmt::format("FAULTS ON PURPOSE ({}): {}", state.faults.text(), title) : title;
 }
 
+bool is_open(const WindowState& state, KeyTarget target) {
+  switch (target) {
+    case KeyTarget::pictures:
+      return true;
+    case KeyTarget::controls:
+      return state.controls;
+    case KeyTarget::fragments:
+    case KeyTarget::rays:
+      return state.inspected.has_value();
+    case KeyTarget::lesson:
+      return state.lesson;
+  }
+  return false;
+}
+
+KeyTarget key_target(const WindowState& state) {
+  return is_open(state, state.keys) ? state.keys : KeyTarget::pictures;
+}
+
 bool camera_moved(const WindowState& state) {
   const CameraSettings &now = state.camera, &then = state.scene->camera;
   return now.eye != then.eye || now.look_at != then.look_at;

@@ -33,6 +33,9 @@ struct Notice {
   bool error = false;
 };
 
+// Who gets the arrows, Space and Enter.
+enum class KeyTarget { pictures, controls, fragments, rays, lesson };
+
 struct WindowState {
   std::string file;
   OpenedScene opened;
@@ -57,6 +60,7 @@ struct WindowState {
   int step = -1;          // of the lesson; -1 before the first
   bool revealed = false;  // else its question stands there, and nothing has happened yet
   bool lesson = false, controls = false, help = false;
+  KeyTarget keys = KeyTarget::pictures;  // as Tab chose; see key_target
   double text_scale = 1;
   int material = 0;  // that the controls show
   Notice notice;
@@ -75,6 +79,10 @@ inline glm::ivec2 picture_size(const WindowState& state) {
 
 // "scene, with FAULTS ON PURPOSE": what every picture of it must say.
 std::string window_title(const WindowState& state);
+
+// Whether a panel that keys can go to is there, and to which they go: to the pictures once the chosen one is closed.
+bool is_open(const WindowState& state, KeyTarget target);
+KeyTarget key_target(const WindowState& state);
 
 // Whether the camera is elsewhere than the scene has it.
 bool camera_moved(const WindowState& state);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <utility>
 
+#include "common/clock.h"
 #include "viewer/window/canvas.h"
 #include "viewer/window/frames.h"
 #include "viewer/window/glfw_window.h"
@@ -29,10 +30,11 @@ namespace {
 // An open window: its events become the session's, the session's state becomes its picture.
 class SessionWindow {
  public:
-  SessionWindow(WindowState state, const SceneOpener& open)
+  SessionWindow(WindowState state, const SceneOpener& open, FrameLog* log)
       : window_(make_window(window_title(state))),
         canvas_(glfwGetProcAddress, content_scale()),
-        session_(std::move(state), open, [] { glfwPostEmptyEvent(); }) {
+        session_(std::move(state), open, [] { glfwPostEmptyEvent(); }),
+        log_(log) {
     set_initial_size();
     set_callbacks();
     glfwShowWindow(window_.get());
@@ -128,7 +130,7 @@ class SessionWindow {
     return panel_at(layout(), cursor_) == 1 ? layout().panels.right : layout().panels.left;
   }
 
-  void press(const std::string& key) { session_.press(key, panel()); }
+  void press(const std::string& key) { frames_.press(key, panel()); }
 
   void scroll(double amount) {
     if (canvas_.wants_pointer()) return canvas_.set_pointer(cursor_, widget_button_, amount);
@@ -199,7 +201,13 @@ class SessionWindow {
     const glm::ivec2 size = framebuffer_size();
     if (size.x < 1 || size.y < 1) return;  // minimised
     if (frames_.draw(size, content_scale())) touch();
+    const double drawn = wall_ms();
     glfwSwapBuffers(window_.get());
+    if (log_) {
+      FrameTime time = frames_.time();
+      time.swap = wall_ms() - drawn;
+      log_->add(time, frames_.contents().latest());
+    }
     if (std::string text = session_.take_clipboard(); !text.empty())
       glfwSetClipboardString(window_.get(), text.c_str());
   }
@@ -209,6 +217,7 @@ class SessionWindow {
   Canvas canvas_;
   Session session_;
   Frames frames_{canvas_, session_};
+  FrameLog* log_;
   glm::dvec2 cursor_{0}, pressed_at_{0};  // device pixels
   int held_ = -1;                         // button that went down on a picture
   bool dragged_ = false, widget_button_ = false;
@@ -220,13 +229,13 @@ class SessionWindow {
 
 void require_display() { const GlfwLibrary library; }
 
-int run_window(WindowState state, const SceneOpener& open) {
-  SessionWindow(std::move(state), open).run();
+int run_window(WindowState state, const SceneOpener& open, FrameLog* log) {
+  SessionWindow(std::move(state), open, log).run();
   return 0;
 }
 #else
 void require_display() { throw NoDisplay("this build of sidelight has no window"); }
-int run_window(WindowState, const SceneOpener&) {
+int run_window(WindowState, const SceneOpener&, FrameLog*) {
   require_display();
   return 0;
 }

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "viewer/window/session.h"
+#include "viewer/window/frame_log.h"
 
 namespace sidelight {
 
@@ -20,7 +20,8 @@ class NoDisplay : public std::runtime_error {
 void require_display();
 
 // Shows the window and returns 0 when the user has closed it. Must be called on the main thread, one at a
-// time. Sleeps while nothing happens. Throws NoDisplay or UsageError (pictures too large for OpenGL).
-int run_window(WindowState state, const SceneOpener& open);
+// time. Sleeps while nothing happens. `log`, if given, receives every frame's times. Throws NoDisplay or UsageError
+// (pictures too large for OpenGL).
+int run_window(WindowState state, const SceneOpener& open, FrameLog* log = nullptr);
 
 }  // namespace sidelight

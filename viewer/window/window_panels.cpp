@@ -120,6 +120,12 @@ void draw_notice(const Canvas& canvas, ImDrawList& list, const WindowContents& c
             failed ? contents.latest.error : notice.text);
 }
 
+// Of all of the lesson's text, at scale 1.
+double lesson_height(const WindowState& state, int width, double scale) {
+  const int rows = lesson_rows(state, width, scale);
+  return state.step >= 0 ? 1.2 * kTitleText * rows + 56 : 1.2 * kCaptionText * rows + 28;
+}
+
 }  // namespace
 
 WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double scale) {
@@ -131,7 +137,29 @@ WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double sca
     out.controls = {size.x - width, 0, size.x, size.y};
     room.x -= width;
   }
-  const int footer = pixels(2.4 * kSmallText);
+  const int margin = pixels(24), line = pixels(2.4 * kSmallText);
+  const int footer =
+      line + pixels(1.8 * kSmallText) * (button_rows(state, room.x - 2 * margin, scale) - 1);
+  int lesson = state.lesson ? pixels(lesson_height(state, room.x - margin, scale)) : 0;
+  int inspector = state.inspected ? std::max(pixels(120), size.y * 2 / 5) : 0;
+  const int slow = state.slow ? pixels(2.6 * kSmallText) : 0;
+  const int legend_lines = legend_rows(state, room.x - 2 * margin, scale);
+  const int legend = legend_lines > 0 ? pixels(kLegendLine * legend_lines + 8) : 0;
+
+  // Words give way to the pictures: first the lines above them, then what can be scrolled.
+  LayoutOptions options{scale, true, state.opened.times, true};
+  const auto missing = [&] {
+    const int head = layout_size({0, 0}, options).y - line, pictures = size.y * 3 / 10;
+    return head + pictures + legend + slow + inspector + lesson + footer - size.y;
+  };
+  if (missing() > 0) options.times = false;
+  if (missing() > 0) options.title = false;
+  if (const int more = missing(); more > 0 && lesson + inspector > 0) {
+    const double kept = std::max(0.0, 1 - static_cast<double>(more) / (lesson + inspector));
+    lesson = static_cast<int>(kept * lesson);
+    inspector = static_cast<int>(kept * inspector);
+  }
+
   int bottom = size.y - footer;
   const auto take = [&](int height) {
     const int top = std::max(0, bottom - height);
@@ -139,17 +167,18 @@ WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double sca
     bottom = top;
     return box;
   };
-  // A step is a line or two, a lesson a paragraph.
-  if (state.lesson) out.lesson = take(std::min(pixels(state.step >= 0 ? 104 : 190), size.y * 2 / 5));
-  if (state.inspected) out.inspector = take(std::max(pixels(120), size.y * 2 / 5));
-  if (state.slow) out.slow = take(pixels(2.6 * kSmallText));
-
-  const LayoutOptions options{scale, true, state.opened.times, true};
-  room.y = bottom + footer;
+  out.lesson = take(lesson);
+  out.inspector = take(inspector);
+  out.slow = take(slow);
+  out.legend = take(legend);
+  out.legend.x0 += margin;
+  out.legend.x1 -= margin;
+  const int gap = bottom + footer < size.y ? pixels(8) : 0;  // above what stands there
+  room.y = bottom - gap + line;
   out.panels = make_layout(room, options);
-  out.panels.footer = {out.panels.title.x0, size.y - footer, out.panels.title.x1, size.y};
+  out.panels.footer = {margin, size.y - footer, room.x - margin, size.y};
   if (one_panel(state)) out.panels = joined(out.panels);
-  if (state.help) out.help = {size.x / 12, size.y / 12, size.x - size.x / 12, size.y - size.y / 12};
+  if (state.help) out.help = {size.x / 24, size.y / 24, size.x - size.x / 24, size.y - size.y / 24};
   return out;
 }
 
@@ -172,12 +201,24 @@ std::vector<Command> draw_window(const Canvas& canvas, const WindowContents& con
   }
   draw_notice(canvas, list, contents, layout.panels);
   if (!empty(layout.panels.footer)) draw_buttons(canvas, contents, layout.panels.footer, out);
+  if (!empty(layout.legend)) draw_legend(canvas, contents, layout.legend);
   if (!empty(layout.slow)) draw_slow_motion(canvas, contents, layout.slow, out);
   if (!empty(layout.inspector)) draw_inspector(canvas, contents, layout.inspector, out);
   if (!empty(layout.lesson)) draw_lesson(canvas, contents, layout.lesson);
   if (!empty(layout.controls)) draw_controls(canvas, contents, layout.controls, out);
   if (!empty(layout.help)) draw_help(canvas, layout.help);
+  const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  if (key_target(contents.state) == KeyTarget::pictures && !busy) ImGui::SetWindowFocus(nullptr);
   return out;
+}
+
+void follow_keys(const WindowState& state, KeyTarget target) {
+  if (key_target(state) != target) return;
+  const bool focused = ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows);
+  if (!focused && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) ImGui::SetWindowFocus();
+  const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRect(low, {low.x + size.x, low.y + size.y}, kText, 4, 0, 3);
 }
 
 DockWindow::DockWindow(const char* name, const Rect& box) {

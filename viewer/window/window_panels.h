@@ -4,6 +4,7 @@
 // window carries out when the frame is done, and which a picture off screen forgets.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -20,7 +21,7 @@ using Command = std::function<void(Session&)>;
 // Where things stand in a window of `size` device pixels. What is closed is empty.
 struct WindowLayout {
   Layout panels;  // joined where there is one panel
-  Rect slow, inspector, lesson, controls, help;
+  Rect legend, slow, inspector, lesson, controls, help;
 };
 WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double scale);
 
@@ -40,8 +41,14 @@ std::vector<Command> draw_window(const Canvas& canvas, const WindowContents& con
 // The panel under a point of the window: 0, 1, or -1.
 int panel_at(const WindowLayout& layout, glm::dvec2 point);
 
+// How many rows the parts take that flow: the buttons, the legend (0 where there is none), the lines of the lesson's text.
+int button_rows(const WindowState& state, int width, double scale);
+int legend_rows(const WindowState& state, int width, double scale);
+int lesson_rows(const WindowState& state, int width, double scale);
+
 // Parts of draw_window, in files of their own. Each is called where its rectangle is not empty.
 void draw_marks(const Canvas& canvas, const WindowContents& contents, const WindowLayout& layout);
+void draw_legend(const Canvas& canvas, const WindowContents& contents, const Rect& box);
 void draw_inspector(const Canvas& canvas, const WindowContents& contents, const Rect& box,
                     std::vector<Command>& out);
 void draw_controls(const Canvas& canvas, const WindowContents& contents, const Rect& box,
@@ -52,6 +59,12 @@ void draw_slow_motion(const Canvas& canvas, const WindowContents& contents, cons
 void draw_help(const Canvas& canvas, const Rect& box);
 void draw_buttons(const Canvas& canvas, const WindowContents& contents, const Rect& box,
                   std::vector<Command>& out);
+
+// The rays have the colours of their causes.
+std::uint32_t segment_color(SegmentKind kind);
+
+// Within a widget window: it has the keyboard, and says so by its frame, if keys go to `target`.
+void follow_keys(const WindowState& state, KeyTarget target);
 
 // A widget window without decoration, exactly in `box`, while it lives.
 class DockWindow {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The panels by keyboard alone: frames are drawn off screen, keys come in as the window hands them on.
+#include "tests/viewer/session.h"
+#include "viewer/window/frames.h"
+#include "viewer/window/offscreen.h"
+
+using namespace sidelight;
+using namespace sidelight::testing;
+
+#ifdef SIDELIGHT_HAVE_OSMESA
+
+namespace {
+
+// A session in a window off screen; each key is followed by the frames that the window would draw.
+void with_window(const std::function<void(Session&, const std::function<void(const char*)>&)>& body) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "scene.toml", kGoodScene);
+  const SceneOpener open = opener(48, 36);
+  Session session(open_state(folder / "scene.toml", open), open);
+  constexpr glm::ivec2 kWindow{1000, 700};
+  draw_offscreen(kWindow.x, kWindow.y, [&](Canvas& canvas) {
+    Frames frames(canvas, session);
+    const auto draw = [&] {
+      for (int left = 3; left > 0; --left)
+        if (frames.take_pictures() | frames.draw(kWindow, 1)) left = 3;
+    };
+    draw();
+    body(session, [&](const char* key) {
+      frames.press(key, kPanel);
+      draw();
+    });
+  });
+}
+
+}  // namespace
+
+TEST_CASE("keyboard: Tab gives the controls the arrows and Space, Escape gives them back") {
+  with_window([](Session& session, const std::function<void(const char*)>& press) {
+    const auto eye = session.state().camera.eye;
+    press("c");
+    press("Tab");
+    CHECK(key_target(session.state()) == KeyTarget::controls);
+    press("Down");   // to the first one: depth
+    press("Space");  // takes it
+    press("Right");
+    press("Right");
+    press("Left");
+    press("Enter");  // lets it go
+    CHECK(session.state().scene->trace.depth == 7);
+    press("Down");  // the switch of the shadows
+    press("Space");
+    CHECK_FALSE(session.state().scene->trace.shadows);
+    press("Right");  // of the mirrors
+    press("Space");
+    CHECK_FALSE(session.state().scene->trace.reflection);
+    CHECK(session.state().camera.eye == eye);
+    press("5");  // what no widget knows is the program's
+    CHECK(session.state().mode == Mode::causes);
+
+    // To the buttons at the very end, past the sliders of lights, material and the faults.
+    for (int i = 0; i < 40 && session.state().scene->trace.depth == 7; ++i) {
+      press("Down");
+      press("Space");
+      press("Space");
+    }
+    CHECK(session.state().scene->trace.depth == 6);  // reset
+    press("Esc");
+    CHECK(key_target(session.state()) == KeyTarget::pictures);
+    press("Left");
+    CHECK(session.state().camera.eye != eye);
+    CHECK_FALSE(session.closed());
+  });
+}
+
+TEST_CASE("keyboard: Tab goes round the open panels") {
+  with_window([](Session& session, const std::function<void(const char*)>& press) {
+    press("Tab");  // none is open
+    CHECK(key_target(session.state()) == KeyTarget::pictures);
+    press("l");
+    session.inspect({20, 20});
+    for (const KeyTarget target :
+         {KeyTarget::fragments, KeyTarget::rays, KeyTarget::lesson, KeyTarget::pictures}) {
+      press("Tab");
+      CHECK(key_target(session.state()) == target);
+    }
+    press("Tab");
+    press("Tab");
+    press("Tab");
+    press("l");  // closes the panel that had the keys
+    CHECK(key_target(session.state()) == KeyTarget::pictures);
+    const auto eye = session.state().camera.eye;
+    press("Left");
+    CHECK(session.state().camera.eye != eye);
+  });
+}
+
+#endif
