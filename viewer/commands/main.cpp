@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
+#include <regex>
 #include <system_error>
 
 #include "common/error.h"
@@ -33,9 +35,17 @@ int complain(int code, const std::string& message) {
   return code;
 }
 
+// One empty line between groups of options, not two, so that a verb's help fits a screen.
+struct HelpFormatter : CLI::Formatter {
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    return std::regex_replace(CLI::Formatter::make_help(app, std::move(name), mode), std::regex("\n{3,}"), "\n\n");
+  }
+};
+
 int run(int argc, char** argv) {
   CLI::App app("sidelight renders one scene by z-buffer and by ray tracing, and accounts for every difference.",
                "sidelight");
+  app.formatter(std::make_shared<HelpFormatter>());   // the verbs have it, too
   app.set_version_flag("--version", "sidelight " SIDELIGHT_VERSION);
   app.require_subcommand(1);
   app.footer(

@@ -87,7 +87,7 @@ int run_view(const ViewFlags& flags) {
 
 void add_view_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<ViewFlags>();
-  CLI::App* verb = app.add_subcommand("view", "the window: two pictures side by side, linked");
+  CLI::App* verb = app.add_subcommand("view", "the window: two pictures side by side, linked; h shows its keys");
   add_job_flags(*verb, flags->job);
   add_fault_flags(*verb, flags->job.faults);
   const std::vector<std::string> modes(kStepModes.begin(), kStepModes.end());
@@ -104,7 +104,8 @@ void add_view_command(CLI::App& app, int& exit_code) {
   verb->add_option("--frame-log", flags->frame_log, "write every frame's times to FILE.csv at the end");
   verb->add_option("--size", flags->window, "size of that window")->capture_default_str();
   verb->footer(
-      "In the window h shows the keys. Example:\n"
+      "Examples:\n"
+      "  sidelight view scenes/13-everything.toml\n"
       "  sidelight view scenes/07-mirrors.toml --mode causes --inspect 20,20 --screenshot mirrors.png");
   verb->callback([flags, &exit_code] { exit_code = run_view(*flags); });
 }
