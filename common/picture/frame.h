@@ -78,7 +78,9 @@ struct RayCounts {
 
 // The work of visibility: edge and side signs by the level of exactness that decided them, and tests of a ray
 // against a primitive. A z-buffer's test is a primitive tried at a sample that its box covers; it gives a fragment where
-// the primitive covers the sample. A node is one of the hierarchy that a ray entered.
+// the primitive covers the sample, unless a whole block of samples was known to hide it. The float filter decides the
+// three edge signs of all tests of a triangle but those that it finds doubtful. A node is one of the hierarchy that a ray
+// entered.
 struct SignCounts {
   std::uint64_t filtered = 0, in_double = 0, exact = 0;
   std::uint64_t tests = 0;

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What a rasterizing kernel asks of lanes beyond arithmetic (lanes.h): extremes, questions about masks, numbered lanes,
+// and integers beside the floats. Each is exact, so that every lane type gives the same bits.
+#pragma once
+
+#include <algorithm>
+
+#include "common/math/lanes.h"
+
+namespace sidelight {
+
+// 32-bit integers beside the floats F, lane for lane.
+template <class F>
+using Ints = decltype(to_bits(F{}));
+
+// The smaller (greater) of each lane; a where they compare equal. Not for NaN.
+template <class F>
+F lane_min(const F& a, const F& b) {
+  return select<F>(b < a, b, a);
+}
+template <class F>
+F lane_max(const F& a, const F& b) {
+  return select<F>(a < b, b, a);
+}
+template <class F>
+F lane_abs(const F& a) {
+  return select<F>(a < F(0), -a, a);
+}
+
+// Of a mask of F's lanes: whether any holds, and how many do.
+template <class F>
+bool any(const Mask<F>& mask) {
+  if constexpr (kLanes<F> == 1)
+    return mask;
+  else
+    return stdx::any_of(mask);
+}
+template <class F>
+int count(const Mask<F>& mask) {
+  if constexpr (kLanes<F> == 1)
+    return mask ? 1 : 0;
+  else
+    return stdx::popcount(mask);
+}
+
+// A mask of F's lanes as one of the integers beside them.
+template <class F>
+Mask<Ints<F>> integer_mask(const Mask<F>& mask) {
+  if constexpr (kLanes<F> == 1)
+    return mask;
+  else
+    return to_bits<F>(select<F>(mask, F(1), F(0))) != Ints<F>(0);
+}
+
+// The least of all lanes.
+template <class F>
+Scalar<F> least(const F& a) {
+  alignas(64) Scalar<F> lanes[kLanes<F>];
+  store(a, lanes);
+  Scalar<F> result = lanes[0];
+  for (int lane = 1; lane < kLanes<F>; ++lane) result = lane_min(result, lanes[lane]);
+  return result;
+}
+
+// of(lane) in each lane.
+template <class F, class Of>
+F generate(const Of& of) {
+  if constexpr (kLanes<F> == 1)
+    return of(0);
+  else
+    return F([&](auto lane) { return of(static_cast<int>(lane)); });
+}
+
+// 0, 1, 2, ... as numbers.
+template <class F>
+F lane_numbers() {
+  return generate<F>([](int lane) { return static_cast<Scalar<F>>(lane); });
+}
+
+}  // namespace sidelight
