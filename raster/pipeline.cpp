@@ -11,6 +11,7 @@
 #include "raster/resolve.h"
 #include "raster/snap.h"
 #include "raster/tile.h"
+#include "raster/visible_bins.h"
 
 namespace sidelight::raster {
 std::shared_ptr<const Prepared> prepare(const Scene& scene, int) { return prepare_for(needs_of(scene), scene); }
@@ -28,6 +29,19 @@ Frame render_snapped(const Prepared& prepared, const Camera& camera, RenderOptio
   return render(*prepare(scene), camera, options);
 }
 
+// A tile's visible primitives as hits.
+struct VisibleHits {
+  const TileView& tile;
+
+  Hit at(int X, int Y) const {
+    const std::uint32_t primitive = tile.primitive[tile.index(X, Y)];
+    if (primitive == kNone) return {};
+    SignCounts not_counted;
+    return intersect(tile.scene, primitive, {tile.camera.eye, tile.camera.direction(X, Y)}, kRayStart, not_counted);
+  }
+  std::uint32_t tests(int, int) const { return 0; }
+};
+
 }  // namespace
 
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
@@ -38,6 +52,29 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
   const int threads = thread_count(options.threads);
   std::vector<RenderStats> stats(static_cast<std::size_t>(threads));
   std::atomic<int> done{0};
+
+  // Faults and the count of each pixel's tests are for the readable twin.
+  if (!(options.faults.depth_format || options.faults.float_precision || !frame.cost.empty())) {
+    const VisibleBins bins(prepared.scene, camera, grid, options.isa, threads);
+    std::vector<VisibleTile> tiles(static_cast<std::size_t>(threads));
+    parallel_for(grid.count(), threads, [&](int tile, int thread) {
+      if (options.cancel && *options.cancel) throw Interrupted();
+      SignCounts& counts = stats[static_cast<std::size_t>(thread)].signs;
+      const Rect pixels = grid.tile(tile);
+      VisibleTile& visible = tiles[static_cast<std::size_t>(thread)];
+      const TileView view = visible.clear(prepared.scene, camera, TileGrid{pixels}.samples(camera.n), counts);
+      bins.draw(view, tile);
+      TileResolve resolve(prepared, camera, options.isa, pixels);
+      resolve.shade(VisibleHits{view}, counts);
+      resolve.write(frame);
+      if (options.progress) options.progress(static_cast<double>(++done) / grid.count());
+    });
+    for (std::size_t t = 0; t < stats.size(); ++t) {
+      frame.stats.add_counts(stats[t]);
+      frame.stats.add_counts({.rays = {}, .signs = bins.threads()[t].counts});
+    }
+    return frame;
+  }
 
   const Bins bins = bin_primitives(prepared.scene, camera, grid, threads);
   std::vector<TileResolve> resolves(static_cast<std::size_t>(threads), {prepared, camera, options});

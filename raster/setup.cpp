@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "common/model/visibility.h"
+
 namespace sidelight::raster {
 namespace {
 
@@ -61,16 +63,26 @@ SampleBox box_of_points(const Camera& camera, std::span<const glm::dvec3> points
           clamped(right, -1, camera.columns() - 1) + 1, clamped(bottom, -1, camera.rows() - 1) + 1};
 }
 
+// As set_up_chunk() (setup_kernel.h) finds it for many.
+SampleBox box_of_triangle(const Scene& scene, const Camera& camera, const Triangle& triangle) {
+  if (triangle.degenerate) return {};
+  const auto [v0, v1, v2] = corners(scene, triangle);
+  const ScreenSpace space(camera);
+  const ScreenVertex a = project(space, v0), b = project(space, v1), c = project(space, v2);
+  if ((a.state & b.state & c.state & ~ScreenSpace::kUnplaced) != 0) return {};
+  if (((a.state | b.state | c.state) & ScreenSpace::kUnplaced) != 0)
+    return box_of_points(camera, std::array{v0 - camera.eye, v1 - camera.eye, v2 - camera.eye});
+  const Box<std::int32_t> box =
+      box_of_places(space, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
+                    std::max({a.y, b.y, c.y}));
+  return {box.x0, box.y0, box.x1, box.y1};
+}
+
 SampleBox box_of_primitive(const Scene& scene, const Camera& camera, std::uint32_t primitive) {
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   if (ref.kind == ObjectKind::sphere) return box_of_sphere(camera, scene.spheres[ref.index]);
   if (ref.kind == ObjectKind::plane) return whole(camera);
-  const Triangle& triangle = scene.triangles[ref.index];
-  if (triangle.degenerate) return {};
-  const std::array<glm::dvec3, 3> a{scene.positions[triangle.vertex[0]] - camera.eye,
-                                    scene.positions[triangle.vertex[1]] - camera.eye,
-                                    scene.positions[triangle.vertex[2]] - camera.eye};
-  return box_of_points(camera, a);
+  return box_of_triangle(scene, camera, scene.triangles[ref.index]);
 }
 
 }  // namespace sidelight::raster

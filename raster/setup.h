@@ -7,14 +7,9 @@
 
 #include "common/scene/camera.h"
 #include "common/scene/scene.h"
+#include "raster/screen.h"
 
 namespace sidelight::raster {
-
-// Half-open rectangle of lattice samples; empty where x0 >= x1 or y0 >= y1.
-struct SampleBox {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  bool empty() const { return x0 >= x1 || y0 >= y1; }
-};
 
 SampleBox intersection(const SampleBox& a, const SampleBox& b);
 

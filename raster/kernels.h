@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The rasterizer's kernels, each written once over lanes (project_lanes, setup_kernel.h, visible_kernel.h) and
+// instantiated for each instruction set. Every set gives the same bits and counts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "raster/screen.h"
+#include "raster/visible_tile.h"
+
+namespace sidelight::raster {
+
+// Triangles on their way through set-up together: a structure of arrays, corner by corner.
+struct TriangleChunk {
+  static constexpr int kSize = 256;
+  // What becomes of a triangle: nothing; rasterized at once; drawn by the tiles; as that, if it has a side, which the
+  // filter cannot tell; set up in double.
+  enum Kind : std::int32_t { kNothing, kTiny, kSmall, kDoubtful, kLarge };
+  static constexpr int kTinyBox = 3;  // samples along the edge of a tiny triangle's box, at most
+
+  template <class T>
+  using PerTriangle = std::array<T, kSize>;
+
+  int size = 0;
+  alignas(64) std::array<PerTriangle<std::int32_t>, 3> x, y;
+  alignas(64) std::array<PerTriangle<float>, 3> w;
+  alignas(64) PerTriangle<std::int32_t> any_state, all_state;  // the corners' states, by or and by and
+
+  // What set_up() finds.
+  alignas(64) PerTriangle<std::int32_t> x0, y0, x1, y1;  // box, cut to the window
+  alignas(64) PerTriangle<std::int32_t> kind;
+};
+
+// The samples that tiny triangles cover, and those that must be asked.
+struct TinyFragments {
+  static constexpr int kTriangles = 64;  // at a time, at most
+  static constexpr int kMost = kTriangles * TriangleChunk::kTinyBox * TriangleChunk::kTinyBox;
+  std::size_t covered = 0, doubtful = 0;
+  std::array<ScreenFragment, kMost + 16> fragment;  // .primitive: place in the chunk
+  std::array<ScreenFragment, kMost + 16> doubt;
+};
+
+struct Kernels {
+  void (*project)(const ScreenSpace& space, const glm::dvec3* from, ScreenVertex* to, int count);
+  void (*set_up)(const ScreenSpace& space, const SampleBox& window, TriangleChunk& chunk);
+  // Of the chunk, those in queue[0, size), size <= TinyFragments::kTriangles.
+  void (*rasterize_tiny)(const ScreenSpace& space, const TriangleChunk& chunk, const std::int32_t* queue,
+                         int size, TinyFragments& out);
+  void (*draw_small)(const TileView& tile, const ScreenSpace& space, const ScreenVertex* vertices,
+                     const SmallTriangle* triangles, std::size_t count);
+  void (*draw_large)(const TileView& tile, const LargeSurface& surface);
+};
+
+const Kernels& kernels_scalar();
+const Kernels& kernels_avx2();
+const Kernels& kernels_avx512();
+
+inline const Kernels& kernels_for(Isa isa) {
+  if (isa == Isa::avx512) return kernels_avx512();
+  return isa == Isa::avx2 ? kernels_avx2() : kernels_scalar();
+}
+
+}  // namespace sidelight::raster

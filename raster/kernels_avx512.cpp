@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The rasterizer's kernels for sixteen lanes of floats (compiled with -mavx512f and its companions).
+#include "raster/setup_kernel.h"
+#include "raster/visible_kernel.h"
+
+namespace sidelight::raster {
+
+static_assert(kLanes<stdx::native_simd<float>> == 16);
+
+const Kernels& kernels_avx512() {
+  static constexpr Kernels kernels{
+      project_all<stdx::native_simd<double>>, set_up_chunk<stdx::native_simd<float>>,
+      rasterize_tiny_queue<stdx::native_simd<float>>, draw_small_triangles<stdx::native_simd<float>>,
+      draw_large_surface<stdx::native_simd<float>>};
+  return kernels;
+}
+
+}  // namespace sidelight::raster

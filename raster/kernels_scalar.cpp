@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The rasterizer's kernels for one lane, and the oracle of the wide ones.
+#include "raster/setup_kernel.h"
+#include "raster/visible_kernel.h"
+
+namespace sidelight::raster {
+
+const Kernels& kernels_scalar() {
+  static constexpr Kernels kernels{project_all<double>, set_up_chunk<float>, rasterize_tiny_queue<float>,
+                                   draw_small_triangles<float>, draw_large_surface<float>};
+  return kernels;
+}
+
+}  // namespace sidelight::raster

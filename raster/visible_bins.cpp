@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "raster/visible_bins.h"
+
+#include <algorithm>
+
+#include "common/parallel.h"
+
+namespace sidelight::raster {
+namespace {
+
+constexpr std::uint32_t kBatch = 4 * TriangleChunk::kSize;  // triangles handed to a thread at a time
+constexpr std::uint32_t kVertexBatch = 4096;
+
+std::vector<int> tiles_of_samples(int samples, int edge) {
+  std::vector<int> tiles(static_cast<std::size_t>(samples));
+  for (int i = 0; i < samples; ++i) tiles[static_cast<std::size_t>(i)] = i / edge;
+  return tiles;
+}
+
+std::uint64_t area(const SampleBox& box) {
+  return static_cast<std::uint64_t>(box.x1 - box.x0) * static_cast<std::uint64_t>(box.y1 - box.y0);
+}
+
+}  // namespace
+
+struct VisibleBins::Workshop {
+  TriangleChunk chunk{};
+  TinyFragments fragments{};
+  // Places in the chunk, by kind; each is written one beyond its end.
+  std::array<std::int32_t, TriangleChunk::kSize + 1> tiny{}, small{}, others{};
+};
+
+VisibleBins::VisibleBins(const Scene& scene, const Camera& camera, const TileGrid& grid, Isa isa, int threads)
+    : scene_(scene),
+      camera_(camera),
+      grid_(grid),
+      kernels_(kernels_for(isa)),
+      space_(camera),
+      sheet_(lattice_sheet(camera)),
+      window_(grid.samples(camera.n)),
+      tile_columns_(tiles_of_samples(window_.x1 - window_.x0, camera.n * grid.edge)),
+      tile_rows_(tiles_of_samples(window_.y1 - window_.y0, camera.n * grid.edge)),
+      vertices_(std::make_unique_for_overwrite<ScreenVertex[]>(scene.positions.size())),
+      threads_(static_cast<std::size_t>(threads)) {
+  const auto vertices = static_cast<std::uint32_t>(scene.positions.size());
+  parallel_for(static_cast<int>((vertices + kVertexBatch - 1) / kVertexBatch), threads, [&](int item, int) {
+    const std::uint32_t first = static_cast<std::uint32_t>(item) * kVertexBatch;
+    kernels_.project(space_, &scene.positions[first], &vertices_[first],
+                     static_cast<int>(std::min(kVertexBatch, vertices - first)));
+  });
+
+  for (ThreadBins& bins : threads_) bins.tiles.resize(static_cast<std::size_t>(grid.count()));
+  std::vector<std::unique_ptr<Workshop>> shops(threads_.size());
+  const std::vector<Batch> work = batches();
+  parallel_for(static_cast<int>(work.size()), threads, [&](int item, int thread) {
+    const auto t = static_cast<std::size_t>(thread);
+    if (!shops[t]) shops[t] = std::make_unique<Workshop>();
+    set_up_triangles(work[static_cast<std::size_t>(item)], *shops[t], threads_[t]);
+  });
+  for (const Object& object : scene.objects)
+    if (object.kind != ObjectKind::mesh) set_up_other(object.first_primitive, threads_[0]);
+}
+
+std::vector<VisibleBins::Batch> VisibleBins::batches() const {
+  std::vector<Batch> batches;
+  for (const Object& object : scene_.objects) {
+    if (object.kind != ObjectKind::mesh) continue;
+    for (std::uint32_t done = 0; done < object.count; done += kBatch)
+      batches.push_back(
+          {object.first + done, object.first_primitive + done, std::min(kBatch, object.count - done)});
+  }
+  return batches;
+}
+
+void VisibleBins::set_up_triangles(const Batch& batch, Workshop& shop, ThreadBins& bins) const {
+  TriangleChunk& chunk = shop.chunk;
+  for (std::uint32_t done = 0; done < batch.size; done += TriangleChunk::kSize) {
+    chunk.size = static_cast<int>(std::min<std::uint32_t>(TriangleChunk::kSize, batch.size - done));
+    const Triangle* const triangles = &scene_.triangles[batch.first_triangle + done];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(chunk.size); ++i) {
+      std::uint32_t any_state = 0, all_state = ~0u;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const ScreenVertex& v = vertices_[triangles[i].vertex[k]];
+        chunk.x[k][i] = v.x;
+        chunk.y[k][i] = v.y;
+        chunk.w[k][i] = v.w;
+        any_state |= v.state;
+        all_state &= v.state;
+      }
+      chunk.any_state[i] = static_cast<std::int32_t>(any_state);
+      chunk.all_state[i] = static_cast<std::int32_t>(all_state);
+    }
+    set_up_chunk(shop, batch.first_triangle + done, batch.first_primitive + done, bins);
+  }
+}
+
+// Sorts the chunk's triangles into queues by kind, so that each step runs over full lanes.
+void VisibleBins::set_up_chunk(Workshop& shop, std::uint32_t first_triangle, std::uint32_t first_primitive,
+                               ThreadBins& bins) const {
+  TriangleChunk& chunk = shop.chunk;
+  kernels_.set_up(space_, window_, chunk);
+  std::size_t tiny = 0, small = 0, others = 0;
+  for (std::int32_t i = 0; i < chunk.size; ++i) {
+    const std::int32_t kind = chunk.kind[static_cast<std::size_t>(i)];
+    shop.tiny[tiny] = shop.small[small] = shop.others[others] = i;
+    tiny += kind == TriangleChunk::kTiny;
+    small += kind == TriangleChunk::kSmall;
+    others += kind > TriangleChunk::kSmall;
+  }
+  const auto box_of = [&](std::int32_t place) {
+    const auto i = static_cast<std::size_t>(place);
+    return SampleBox{chunk.x0[i], chunk.y0[i], chunk.x1[i], chunk.y1[i]};
+  };
+
+  std::uint64_t tests = 0;
+  for (std::size_t done = 0; done < tiny; done += TinyFragments::kTriangles) {
+    const std::size_t size = std::min<std::size_t>(TinyFragments::kTriangles, tiny - done);
+    kernels_.rasterize_tiny(space_, chunk, &shop.tiny[done], static_cast<int>(size), shop.fragments);
+    collect_fragments(shop, first_primitive, bins);
+    for (std::size_t q = done; q < done + size; ++q) tests += area(box_of(shop.tiny[q]));
+  }
+  for (std::size_t q = 0; q < small; ++q) {
+    const SampleBox box = box_of(shop.small[q]);
+    const auto place = static_cast<std::uint32_t>(shop.small[q]);
+    const SmallTriangle triangle{first_triangle + place, first_primitive + place};
+    for_each_bin(bins, box, [&](TileBin& bin) { bin.small.push_back(triangle); });
+    tests += area(box);
+  }
+  bins.counts.tests += tests;
+  bins.counts.filtered += 3 * tests + tiny + small;  // draw_exactly() takes back what it decides
+  for (std::size_t q = 0; q < others; ++q) {
+    const auto place = static_cast<std::uint32_t>(shop.others[q]);
+    set_up_in_double(first_triangle + place, first_primitive + place, box_of(shop.others[q]),
+                     chunk.kind[place] == TriangleChunk::kDoubtful, bins);
+  }
+}
+
+void VisibleBins::collect_fragments(const Workshop& shop, std::uint32_t first_primitive,
+                                    ThreadBins& bins) const {
+  const auto put = [&](ScreenFragment fragment) {
+    const int tile = tile_row(fragment.Y) * grid_.columns() + tile_column(fragment.X);
+    bins.tiles[static_cast<std::size_t>(tile)].fragments.push_back(fragment);
+  };
+  for (std::size_t i = 0; i < shop.fragments.covered; ++i) {
+    ScreenFragment fragment = shop.fragments.fragment[i];
+    fragment.primitive += first_primitive;
+    put(fragment);
+  }
+  bins.counts.fragments += shop.fragments.covered;
+  for (std::size_t i = 0; i < shop.fragments.doubtful; ++i) {
+    ScreenFragment fragment = shop.fragments.doubt[i];
+    fragment.primitive += first_primitive;
+    const Ray ray{camera_.eye, camera_.direction(fragment.X, fragment.Y)};
+    const Hit hit = intersect(scene_, fragment.primitive, ray, kRayStart, bins.counts);
+    --bins.counts.tests;
+    bins.counts.filtered -= 3;
+    if (!hit.found()) continue;
+    ++bins.counts.fragments;
+    fragment.w = static_cast<float>(1 / hit.t);
+    put(fragment);
+  }
+}
+
+// A triangle that floats on the screen cannot tell about: its side decided as visibility.h does.
+void VisibleBins::set_up_in_double(std::uint32_t index, std::uint32_t primitive, const SampleBox& places,
+                                   bool small, ThreadBins& bins) const {
+  const Triangle& triangle = scene_.triangles[index];
+  if (triangle.degenerate) return;
+  const auto [v0, v1, v2] = corners(scene_, triangle);
+  const TriangleView view = view_triangle(camera_.eye, v0, v1, v2);
+  const std::array<std::uint32_t, 3>& vertex = triangle.vertex;
+  const bool placed =
+      ((vertices_[vertex[0]].state | vertices_[vertex[1]].state | vertices_[vertex[2]].state) &
+       ScreenSpace::kUnplaced) == 0;
+  const SampleBox box = placed ? places : intersection(box_of_points(camera_, view.a), window_);
+  if (box.empty()) return;
+  const int side = view_side(view, bins.counts);
+  if (side == 0) return;  // seen exactly edge-on
+  bins.counts.tests += area(box);
+  bins.counts.filtered += 3 * area(box);
+  if (small) return for_each_bin(bins, box, [&](TileBin& bin) { bin.small.push_back({index, primitive}); });
+
+  LargeSurface surface;
+  surface.primitive = primitive;
+  surface.box = box;
+  surface.nearest = std::numeric_limits<float>::infinity();
+  if (placed)
+    surface.nearest = std::max({vertices_[vertex[0]].w, vertices_[vertex[1]].w, vertices_[vertex[2]].w});
+  surface.edge = edge_sheets(sheet_, view, side);
+  surface.depth = depth_sheet(sheet_, view, depth_plane(view, v0, v1, v2));
+  const auto number = static_cast<std::uint32_t>(bins.large.size());
+  bins.large.push_back(surface);
+  for_each_bin(bins, box, [&](TileBin& bin) { bin.large.push_back(number); });
+}
+
+void VisibleBins::set_up_other(std::uint32_t primitive, ThreadBins& bins) const {
+  const SampleBox box = intersection(box_of_primitive(scene_, camera_, primitive), window_);
+  if (box.empty()) return;
+  bins.counts.tests += area(box);
+  const PrimitiveRef ref = primitive_ref(scene_, primitive);
+  if (ref.kind == ObjectKind::sphere) {
+    const auto number = static_cast<std::uint32_t>(bins.spheres.size());
+    bins.spheres.push_back({primitive, box});
+    return for_each_bin(bins, box, [&](TileBin& bin) { bin.spheres.push_back(number); });
+  }
+  LargeSurface surface;  // a plane: nearest 0, so that it is drawn last and what stands before it hides it
+  surface.primitive = primitive;
+  surface.box = box;
+  surface.bounded = false;
+  surface.depth = depth_sheet(sheet_, scene_.planes[ref.index]);
+  if (!surface.depth.sure) return;  // the eye lies in it
+  const auto number = static_cast<std::uint32_t>(bins.large.size());
+  bins.large.push_back(surface);
+  for_each_bin(bins, box, [&](TileBin& bin) { bin.large.push_back(number); });
+}
+
+// Large surfaces first, the near ones before the far: they hide whole blocks.
+void VisibleBins::draw(const TileView& view, int tile) const {
+  const auto t = static_cast<std::size_t>(tile);
+  std::vector<const LargeSurface*> large;
+  for (const ThreadBins& bins : threads_)
+    for (const std::uint32_t number : bins.tiles[t].large) large.push_back(&bins.large[number]);
+  std::sort(large.begin(), large.end(), [](const LargeSurface* a, const LargeSurface* b) {
+    return a->nearest > b->nearest || (a->nearest == b->nearest && a->primitive < b->primitive);
+  });
+  for (const ThreadBins& bins : threads_)
+    for (const std::uint32_t number : bins.tiles[t].spheres)
+      draw_sphere(view, bins.spheres[number].primitive, bins.spheres[number].box);
+  for (const LargeSurface* surface : large) kernels_.draw_large(view, *surface);
+  for (const ThreadBins& bins : threads_) {
+    const TileBin& bin = bins.tiles[t];
+    kernels_.draw_small(view, space_, vertices_.get(), bin.small.data(), bin.small.size());
+    draw_fragments(view, bin.fragments);
+  }
+}
+
+}  // namespace sidelight::raster

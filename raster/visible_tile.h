@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// One tile's z-buffer, fast: 1/t in float and the primitive of the nearest surface at each sample, 8 bytes a sample. It
+// holds the same primitives as DepthTile (tile.h), the readable twin: float comparisons decide only where their bounds
+// prove the order of the exact depths, and all others compare those depths.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/model/ray_sheet.h"
+#include "raster/screen.h"
+
+namespace sidelight::raster {
+
+// A triangle too large for float coordinates on the screen, or around the eye; or a plane.
+struct LargeSurface {
+  std::uint32_t primitive = kNone;
+  float nearest = 0;    // about the greatest 1/t: what is drawn first hides what comes after
+  SampleBox box;        // where it may be seen
+  bool bounded = true;  // by edges; not a plane
+  std::array<EdgeSheet, 3> edge;
+  DepthSheet depth;
+};
+
+// A small triangle of a mesh: its numbers among all triangles and among all primitives.
+struct SmallTriangle {
+  std::uint32_t triangle = 0, primitive = kNone;
+};
+
+// A sample that a tiny triangle covers.
+struct ScreenFragment {
+  int X = 0, Y = 0;
+  float w = 0;  // 1/t within kDepthError; 0 where that is not sure
+  std::uint32_t primitive = kNone;
+};
+
+// What a kernel sees of a tile. Blocks are kBlockColumns x kBlockRows samples, from the tile's upper left.
+struct TileView {
+  static constexpr int kBlockColumns = 16, kBlockRows = 8;
+
+  const Scene& scene;
+  const Camera& camera;
+  SignCounts& counts;
+  SampleBox box;
+  int columns = 0, block_columns = 0;
+  float* w = nullptr;                  // row by row; 0 on background; readable kBlockColumns beyond the end
+  std::uint32_t* primitive = nullptr;  // likewise; kNone on background
+  float* farthest = nullptr;           // of each block: no sample is farther, by w
+
+  int index(int X, int Y) const { return (Y - box.y0) * columns + (X - box.x0); }
+};
+
+// Asks visibility.h whether the primitive covers the sample and is the nearest there. `filtered`: how many signs were
+// counted as decided by the filter in advance.
+void draw_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, int filtered);
+// The same for a primitive that is known to cover the sample: whether it is the nearest.
+void order_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y);
+
+class VisibleTile {
+ public:
+  // Sets the tile to background. The vectors keep their memory from tile to tile.
+  TileView clear(const Scene& scene, const Camera& camera, const SampleBox& samples, SignCounts& counts);
+
+  // After all is drawn: the primitive of each sample, row by row.
+  const std::uint32_t* primitives() const { return primitive_.data(); }
+
+ private:
+  std::vector<float> w_, farthest_;
+  std::vector<std::uint32_t> primitive_;
+};
+
+void draw_fragments(const TileView& tile, const std::vector<ScreenFragment>& fragments);
+void draw_sphere(const TileView& tile, std::uint32_t primitive, const SampleBox& box);
+
+}  // namespace sidelight::raster

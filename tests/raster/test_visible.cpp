@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// The fast z-buffer shows what its readable twin shows, bit for bit, with the same counts on every instruction set: over
+// random scenes of tiny, small and large triangles, around and behind the eye, seen edge-on, one upon another at equal
+// depth, beside spheres and planes, in crops, with any tile, thread and sample count. (The twin makes the layer cost.)
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/agreement/pictures.h"
+#include "tests/support/scenes.h"
+
+using namespace sidelight;
+using namespace sidelight::test;
+using namespace sidelight::testing;
+
+namespace {
+
+// The frame, after it was compared with the twin's, on every instruction set and with other threads and tiles.
+Frame judged(const Scene& scene, const Camera& camera, RenderOptions options = keeping(kRasterLayers)) {
+  options.threads = 1;
+  const Frame fast = rastered(scene, camera, options);
+  options.layers |= layer_bit(Layer::cost);
+  const Frame twin = rastered(scene, camera, options);
+  CHECK(differences(fast, twin) == "");
+  CHECK(fast.stats.signs.tests == twin.stats.signs.tests);
+
+  options.layers &= ~layer_bit(Layer::cost);
+  const auto prepared = raster::prepare(scene);
+  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+    if (!machine_has(isa)) continue;
+    options.isa = isa;
+    options.threads = 3;
+    const Frame other = raster::render(*prepared, camera, options);
+    CHECK(other.stats.signs.tests == fast.stats.signs.tests);
+    CHECK(other.stats.signs.fragments == fast.stats.signs.fragments);
+    CHECK(other.stats.signs.filtered == fast.stats.signs.filtered);
+    CHECK(other.stats.signs.in_double == fast.stats.signs.in_double);
+    CHECK(other.stats.signs.exact == fast.stats.signs.exact);
+  }
+  options.tile = 7;
+  CHECK(differences(raster::render(*prepared, camera, options), twin) == "");
+  return fast;
+}
+
+Camera any_camera(Random& random, int n) {
+  CameraSettings settings;
+  settings.eye = random.in_box(1);
+  settings.look_at = settings.eye + random.direction();
+  settings.up = random.direction();
+  settings.view_height = random.log_uniform(0.1, 10);
+  return make_camera(settings, 75, 51, n);
+}
+
+// `count` triangles of about `size`, around the point `distance` before the eye.
+PolygonMesh shards(Random& random, const Camera& camera, int count, double distance, double size) {
+  std::vector<glm::dvec3> positions;
+  std::vector<Face> faces;
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 at =
+        camera.eye + distance * (camera.forward + 0.7 * random.in_box(glm::length(camera.up)));
+    for (int k = 0; k < 3; ++k) positions.push_back(at + random.in_box(size));
+    const auto first = static_cast<std::uint32_t>(3 * i);
+    faces.push_back({first, first + 1, first + 2});
+  }
+  return mesh_of(positions, faces);
+}
+
+}  // namespace
+
+TEST_CASE("visible: shards of every size, near and far, beside a sphere and a plane") {
+  Random random(71);
+  for (const double size : {1e-4, 1e-2, 0.05, 0.3, 2.0, 50.0})
+    for (const int n : {1, 2}) {
+      CAPTURE(size);
+      CAPTURE(n);
+      const Camera camera = any_camera(random, n);
+      Scene scene = scene_of(shards(random, camera, 300, random.uniform(0.5, 3), size));
+      add_sphere(scene, {camera.eye + 2.0 * camera.forward, 0.4 * glm::length(camera.up), 0}, {});
+      add_plane(scene, {camera.eye + random.direction(), random.direction(), 0}, {});
+      judged(scene, camera);
+      RenderOptions cropped = keeping(kRasterLayers);
+      cropped.crop = {11, 3, 62, 40};
+      judged(scene, camera, cropped);
+    }
+}
+
+TEST_CASE("visible: vertices on the rays of samples, edges through them, and shared by many") {
+  // At the origin, 2^-k a sample: every vertex lies on a sample's ray or half way between two, exactly.
+  const Camera camera = plain_camera(64, 48, 0.75);
+  Random random(72);
+  const double sample = camera.up.y / camera.height;  // at distance 1
+  for (const std::int64_t reach : {3, 12, 80}) {
+    CAPTURE(reach);
+    std::vector<glm::dvec3> positions;
+    std::vector<Face> faces;
+    for (std::uint32_t i = 0; i < 400; ++i) {
+      const glm::dvec3 at = random.on_grid(40);
+      for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 half_steps = at + random.on_grid(reach);
+        const double depth = static_cast<double>(1 + random.below(2));
+        positions.push_back({half_steps.x * sample / 2 * depth, half_steps.y * sample / 2 * depth, -depth});
+      }
+      faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const Frame frame = judged(scene_of(mesh_of(positions, faces)), camera);
+    CHECK(frame.stats.signs.exact > 0);
+  }
+}
+
+TEST_CASE("visible: sheets in one plane, whose depths differ in rounding at most") {
+  Random random(73);
+  const Camera camera = any_camera(random, 1);
+  const glm::dvec3 across = random.direction(), along = random.direction(),
+                   center = camera.eye + 3.0 * camera.forward;
+  for (const double size : {0.02, 0.2, 4.0}) {
+    CAPTURE(size);
+    std::vector<glm::dvec3> positions;
+    std::vector<Face> faces;
+    for (std::uint32_t i = 0; i < 200; ++i) {
+      const double u = random.uniform(-2, 2), v = random.uniform(-2, 2);
+      for (int k = 0; k < 3; ++k)
+        positions.push_back(center + (u + size * random.uniform(-1, 1)) * across +
+                            (v + size * random.uniform(-1, 1)) * along);
+      faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    judged(scene_of(mesh_of(positions, faces)), camera);
+  }
+}
+
+TEST_CASE("visible: a fan around the eye's own axis, seen edge-on and in part") {
+  // The axis is a line through the eye: each triangle's plane contains it, or nearly does.
+  Random random(74);
+  const Camera camera = plain_camera(64, 48);
+  for (const double off : {0.0, 0x1p-50, 0x1p-30, 1e-6}) {
+    CAPTURE(off);
+    std::vector<glm::dvec3> positions{{0, off, -1}, {0, off, -4}};
+    std::vector<Face> faces;
+    for (std::uint32_t i = 0; i < 24; ++i) {
+      const glm::dvec3 rim = snapped(random.in_box(1));
+      positions.push_back({rim.x, rim.y, -2.5});
+      faces.push_back({0, 1, i + 2});
+    }
+    judged(scene_of(mesh_of(positions, faces)), camera);
+  }
+}
+
+TEST_CASE("visible: long slivers and huge triangles across one another") {
+  Random random(75);
+  for (const double width : {1e-9, 1e-5, 1e-2}) {
+    CAPTURE(width);
+    const Camera camera = any_camera(random, 1);
+    std::vector<glm::dvec3> positions;
+    std::vector<Face> faces;
+    for (std::uint32_t i = 0; i < 60; ++i) {
+      const glm::dvec3 at = camera.eye + random.uniform(1, 4) * camera.forward + random.in_box(1);
+      const glm::dvec3 end = at + random.log_uniform(0.01, 1e4) * random.direction();
+      positions.insert(positions.end(), {at, end, end + random.in_box(width)});
+      faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    judged(scene_of(mesh_of(positions, faces)), camera);
+  }
+}
+
+TEST_CASE("visible: a lattice of 16384 columns, of which a corner is drawn") {
+  Random random(76);
+  CameraSettings settings;
+  settings.look_at = {0, 0, -1};
+  const Camera camera = make_camera(settings, 16384, 8192, 1);
+  RenderOptions corner = keeping(kRasterLayers);
+  corner.crop = {16324, 8150, 16384, 8192};
+  std::vector<glm::dvec3> positions;
+  std::vector<Face> faces;
+  const glm::dvec3 seen = camera.direction(16360, 8170) / camera.depth_scale();
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const glm::dvec3 at = random.uniform(1, 2) * (seen + random.in_box(4e-3));
+    for (int k = 0; k < 3; ++k) positions.push_back(at + random.in_box(random.log_uniform(1e-5, 1e-1)));
+    faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  judged(scene_of(mesh_of(positions, faces)), camera, corner);
+}
