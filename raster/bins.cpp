@@ -16,7 +16,7 @@ Bins bin_primitives(const Scene& scene, const Camera& camera, const TileGrid& gr
   constexpr int kChunk = 1024;   // primitives handed to a thread at a time
   const int n = camera.n;
   const int primitives = static_cast<int>(scene.primitive_object.size());
-  const SampleBox window = grid.samples(n);
+  const SampleBox window = samples_of(grid.window, n);
   const int tile_samples = n * grid.edge;
 
   Bins bins(thread_count(threads), grid.count());

@@ -21,9 +21,12 @@ struct TileGrid {
   int rows() const { return (window.height() + edge - 1) / edge; }
   int count() const { return columns() * rows(); }
   Rect tile(int index) const;
-  // The window on the lattice of n x n samples a pixel.
-  SampleBox samples(int n) const { return {n * window.x0, n * window.y0, n * window.x1, n * window.y1}; }
 };
+
+// The pixels' samples, n x n in each.
+inline SampleBox samples_of(const Rect& pixels, int n) {
+  return {n * pixels.x0, n * pixels.y0, n * pixels.x1, n * pixels.y1};
+}
 
 using Bin = std::vector<std::uint32_t>;   // primitive numbers
 

@@ -14,9 +14,9 @@ namespace sidelight::raster {
 // Triangles on their way through set-up together: a structure of arrays, corner by corner.
 struct TriangleChunk {
   static constexpr int kSize = 256;
-  // What becomes of a triangle: nothing; rasterized at once; drawn by the tiles; as that, if it has a side, which the
-  // filter cannot tell; set up in double.
-  enum Kind : std::int32_t { kNothing, kTiny, kSmall, kDoubtful, kLarge };
+  // What becomes of a triangle: nothing; rasterized at once; drawn by the tiles, front faces before back faces; as that,
+  // if it has a side, which the filter cannot tell; set up in double.
+  enum Kind : std::int32_t { kNothing, kTiny, kFront, kBack, kDoubtful, kLarge };
   static constexpr int kTinyBox = 3;  // samples along the edge of a tiny triangle's box, at most
 
   template <class T>
@@ -25,7 +25,7 @@ struct TriangleChunk {
   int size = 0;
   alignas(64) std::array<PerTriangle<std::int32_t>, 3> x, y;
   alignas(64) std::array<PerTriangle<float>, 3> w;
-  alignas(64) PerTriangle<std::int32_t> any_state, all_state;  // the corners' states, by or and by and
+  alignas(64) std::array<PerTriangle<std::int32_t>, 3> state;
 
   // What set_up() finds.
   alignas(64) PerTriangle<std::int32_t> x0, y0, x1, y1;  // box, cut to the window
@@ -48,7 +48,9 @@ struct Kernels {
   void (*rasterize_tiny)(const ScreenSpace& space, const TriangleChunk& chunk, const std::int32_t* queue,
                          int size, TinyFragments& out);
   void (*draw_small)(const TileView& tile, const ScreenSpace& space, const ScreenVertex* vertices,
-                     const SmallTriangle* triangles, std::size_t count);
+                     const Corners3* corners, const SmallTriangle* triangles, std::size_t count);
+  // Brings TileView::farthest up to date.
+  void (*find_farthest)(const TileView& tile);
   void (*draw_large)(const TileView& tile, const LargeSurface& surface);
 };
 

@@ -14,6 +14,7 @@
 #include "raster/visible_bins.h"
 
 namespace sidelight::raster {
+
 std::shared_ptr<const Prepared> prepare(const Scene& scene, int) { return prepare_for(needs_of(scene), scene); }
 std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene) {
   const StandardFloatState nearest_and_denormals;
@@ -29,18 +30,65 @@ Frame render_snapped(const Prepared& prepared, const Camera& camera, RenderOptio
   return render(*prepare(scene), camera, options);
 }
 
-// A tile's visible primitives as hits.
-struct VisibleHits {
-  const TileView& tile;
-
-  Hit at(int X, int Y) const {
-    const std::uint32_t primitive = tile.primitive[tile.index(X, Y)];
-    if (primitive == kNone) return {};
-    SignCounts not_counted;
-    return intersect(tile.scene, primitive, {tile.camera.eye, tile.camera.direction(X, Y)}, kRayStart, not_counted);
-  }
-  std::uint32_t tests(int, int) const { return 0; }
+struct Job {
+  const Prepared& prepared;
+  const Camera& camera;
+  const RenderOptions& options;
+  TileGrid grid;
+  int threads;
 };
+
+// shade_tile(tile, thread, resolve, counts) for every tile of the picture; what it shades is written into the frame.
+template <class ShadeTile>
+void for_each_tile(const Job& job, Frame& frame, const ShadeTile& shade_tile) {
+  const RenderOptions& options = job.options;
+  const auto threads = static_cast<std::size_t>(job.threads);
+  std::vector<SignCounts> counts(threads);
+  std::vector<TileResolve> resolves(threads, {job.prepared, job.camera, options});
+  std::atomic<int> done{0};
+  parallel_for(job.grid.count(), job.threads, [&](int tile, int thread) {
+    if (options.cancel && *options.cancel) throw Interrupted();
+    TileResolve& resolve = resolves[static_cast<std::size_t>(thread)];
+    shade_tile(tile, thread, resolve, counts[static_cast<std::size_t>(thread)]);
+    resolve.write(frame);
+    if (options.progress) options.progress(static_cast<double>(++done) / job.grid.count());
+  });
+  for (const SignCounts& of_thread : counts) frame.stats.add_counts({.rays = {}, .signs = of_thread});
+}
+
+void render_fast(const Job& job, Frame& frame) {
+  const Scene& scene = job.prepared.scene;
+  const VisibleBins bins(scene, job.prepared.corners.data(), job.camera, job.grid, job.options.isa, job.threads);
+  std::vector<VisibleTile> tiles(static_cast<std::size_t>(job.threads));
+  for_each_tile(job, frame, [&](int tile, int thread, TileResolve& resolve, SignCounts& counts) {
+    const Rect pixels = job.grid.tile(tile);
+    VisibleTile& visible = tiles[static_cast<std::size_t>(thread)];
+    const TileView view = visible.clear(scene, job.camera, samples_of(pixels, job.camera.n), counts);
+    bins.draw(view, tile);
+    resolve.shade(pixels, visible.primitives(view), counts);
+  });
+  for (const ThreadBins& of_thread : bins.threads())
+    frame.stats.add_counts({.rays = {}, .signs = of_thread.counts});
+}
+
+// With the z-buffer that a student reads, which also has the faults and counts each pixel's tests.
+void render_readable(const Job& job, Frame& frame) {
+  const Scene& scene = job.prepared.scene;
+  const Faults& faults = job.options.faults;
+  const Bins bins = bin_primitives(scene, job.camera, job.grid, job.threads);
+  for_each_tile(job, frame, [&](int tile, int, TileResolve& resolve, SignCounts& counts) {
+    const Rect pixels = job.grid.tile(tile);
+    const auto draw_and_shade = [&](auto&& depth) {
+      bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(scene, primitive, counts); });
+      resolve.shade_hits(pixels, depth, counts);
+    };
+    NoFragments nothing;
+    if (faults.depth_format || faults.float_precision)
+      draw_and_shade(FaultyTile(job.camera, pixels, faults));
+    else
+      draw_and_shade(DepthTile(job.camera, pixels, nothing, !frame.cost.empty()));
+  });
+}
 
 }  // namespace
 
@@ -48,57 +96,11 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
   const StandardFloatState nearest_and_denormals;
   if (options.faults.snap_bits) return render_snapped(prepared, camera, options);
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);
-  const TileGrid grid{frame.window, options.tile};
-  const int threads = thread_count(options.threads);
-  std::vector<RenderStats> stats(static_cast<std::size_t>(threads));
-  std::atomic<int> done{0};
-
-  // Faults and the count of each pixel's tests are for the readable twin.
-  if (!(options.faults.depth_format || options.faults.float_precision || !frame.cost.empty())) {
-    const VisibleBins bins(prepared.scene, camera, grid, options.isa, threads);
-    std::vector<VisibleTile> tiles(static_cast<std::size_t>(threads));
-    parallel_for(grid.count(), threads, [&](int tile, int thread) {
-      if (options.cancel && *options.cancel) throw Interrupted();
-      SignCounts& counts = stats[static_cast<std::size_t>(thread)].signs;
-      const Rect pixels = grid.tile(tile);
-      VisibleTile& visible = tiles[static_cast<std::size_t>(thread)];
-      const TileView view = visible.clear(prepared.scene, camera, TileGrid{pixels}.samples(camera.n), counts);
-      bins.draw(view, tile);
-      TileResolve resolve(prepared, camera, options.isa, pixels);
-      resolve.shade(VisibleHits{view}, counts);
-      resolve.write(frame);
-      if (options.progress) options.progress(static_cast<double>(++done) / grid.count());
-    });
-    for (std::size_t t = 0; t < stats.size(); ++t) {
-      frame.stats.add_counts(stats[t]);
-      frame.stats.add_counts({.rays = {}, .signs = bins.threads()[t].counts});
-    }
-    return frame;
-  }
-
-  const Bins bins = bin_primitives(prepared.scene, camera, grid, threads);
-  std::vector<TileResolve> resolves(static_cast<std::size_t>(threads), {prepared, camera, options});
-  const auto draw_and_shade = [&](auto& depth, int tile, int thread) {
-    SignCounts& counts = stats[static_cast<std::size_t>(thread)].signs;
-    bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(prepared.scene, primitive, counts); });
-    TileResolve& resolve = resolves[static_cast<std::size_t>(thread)];
-    resolve.shade_hits(grid.tile(tile), depth, counts);
-    resolve.write(frame);
-  };
-  parallel_for(grid.count(), threads, [&](int tile, int thread) {
-    if (options.cancel && *options.cancel) throw Interrupted();
-    if (options.faults.depth_format || options.faults.float_precision) {
-      FaultyTile depth(camera, grid.tile(tile), options.faults);
-      draw_and_shade(depth, tile, thread);
-    } else {
-      NoFragments nothing;
-      DepthTile depth(camera, grid.tile(tile), nothing, !frame.cost.empty());
-      draw_and_shade(depth, tile, thread);
-    }
-    if (options.progress) options.progress(static_cast<double>(++done) / grid.count());
-  });
-
-  for (const RenderStats& s : stats) frame.stats.add_counts(s);
+  const Job job{prepared, camera, options, {frame.window, options.tile}, thread_count(options.threads)};
+  if (options.faults.depth_format || options.faults.float_precision || !frame.cost.empty())
+    render_readable(job, frame);
+  else
+    render_fast(job, frame);
   return frame;
 }
 

@@ -9,10 +9,14 @@ namespace sidelight::raster {
 
 class Prepared {
  public:
-  Prepared(const Scene& s, const Needs& needs) : scene(s), tables(make_shading_tables(s, needs)) {}
+  Prepared(const Scene& s, const Needs& needs) : scene(s), tables(make_shading_tables(s, needs)) {
+    corners.reserve(s.triangles.size());
+    for (const Triangle& triangle : s.triangles) corners.push_back(triangle.vertex);
+  }
 
   const Scene& scene;
   ShadingTables tables;
+  std::vector<std::array<std::uint32_t, 3>> corners;   // of every triangle: all of it that set-up reads
 };
 
 }  // namespace sidelight::raster

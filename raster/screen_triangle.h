@@ -29,6 +29,7 @@ struct ScreenTriangle {
   F area;                   // E_0 + E_1 + E_2 > 0
   F doubt;                  // an |E_k| or area not above this may have either sign
   F w0, slope1, slope2;     // 1/t = w0 + E_1 slope1 + E_2 slope2
+  Mask<F> front;            // the outward side is seen (visibility.h, view_side())
   Mask<F> sure_side, sure_depth;
 };
 
@@ -53,7 +54,8 @@ ScreenTriangle<F> screen_triangle(const std::array<Ints<F>, 3>& x, const std::ar
     t.dy[k] = to_real<F>(Ints<F>(y[j] - y[i]));
   }
   const F area = t.dx[1] * t.dy[2] - t.dx[2] * t.dy[1];
-  const F turn = select<F>(area < F(0), F(-1), F(1));
+  t.front = area < F(0);
+  const F turn = select<F>(t.front, F(-1), F(1));
   for (std::size_t k = 0; k < 3; ++k) {
     t.dx[k] = turn * t.dx[k];
     t.dy[k] = turn * t.dy[k];

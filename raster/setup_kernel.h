@@ -50,8 +50,11 @@ template <class F>
     store(x1, &chunk.x1[i]);
     store(y1, &chunk.y1[i]);
 
-    const auto placed = (load<I>(&chunk.any_state[i]) & I(static_cast<int>(ScreenSpace::kUnplaced))) == I(0);
-    const auto beyond = (load<I>(&chunk.all_state[i]) & I(~static_cast<int>(ScreenSpace::kUnplaced))) != I(0);
+    const I sa = load<I>(&chunk.state[0][i]), sb = load<I>(&chunk.state[1][i]),
+            sc = load<I>(&chunk.state[2][i]);
+    const I unplaced(static_cast<int>(ScreenSpace::kUnplaced));
+    const auto placed = ((sa | sb | sc) & unplaced) == I(0);
+    const auto beyond = ((sa & sb & sc) & ~unplaced) != I(0);
     const auto seen = !beyond && !(placed && (x0 >= x1 || y0 >= y1));
     if (!any<I>(seen)) {
       store(I(K::kNothing), &chunk.kind[i]);
@@ -59,8 +62,10 @@ template <class F>
     }
     const auto small = placed && right - left <= I(kSmallExtent) && bottom - top <= I(kSmallExtent);
     const auto tiny = x1 - x0 <= I(K::kTinyBox) && y1 - y0 <= I(K::kTinyBox);
-    const auto sure = integer_mask<F>(triangle_at<F>(chunk, i).sure_side);
-    const I of_small = select<I>(sure, select<I>(tiny, I(K::kTiny), I(K::kSmall)), I(K::kDoubtful));
+    const ScreenTriangle<F> triangle = triangle_at<F>(chunk, i);
+    const I by_side = select<I>(integer_mask<F>(triangle.front), I(K::kFront), I(K::kBack));
+    const I of_small = select<I>(integer_mask<F>(triangle.sure_side), select<I>(tiny, I(K::kTiny), by_side),
+                                 I(K::kDoubtful));
     store(select<I>(seen, select<I>(small, of_small, I(K::kLarge)), I(K::kNothing)), &chunk.kind[i]);
   }
 }

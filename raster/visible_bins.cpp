@@ -2,6 +2,8 @@
 #include "raster/visible_bins.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "common/parallel.h"
 
@@ -27,17 +29,19 @@ struct VisibleBins::Workshop {
   TriangleChunk chunk{};
   TinyFragments fragments{};
   // Places in the chunk, by kind; each is written one beyond its end.
-  std::array<std::int32_t, TriangleChunk::kSize + 1> tiny{}, small{}, others{};
+  std::array<std::int32_t, TriangleChunk::kSize + 1> tiny{}, front{}, back{}, others{};
 };
 
-VisibleBins::VisibleBins(const Scene& scene, const Camera& camera, const TileGrid& grid, Isa isa, int threads)
+VisibleBins::VisibleBins(const Scene& scene, const Corners3* corners, const Camera& camera,
+                         const TileGrid& grid, Isa isa, int threads)
     : scene_(scene),
+      corners_(corners),
       camera_(camera),
       grid_(grid),
       kernels_(kernels_for(isa)),
       space_(camera),
       sheet_(lattice_sheet(camera)),
-      window_(grid.samples(camera.n)),
+      window_(samples_of(grid.window, camera.n)),
       tile_columns_(tiles_of_samples(window_.x1 - window_.x0, camera.n * grid.edge)),
       tile_rows_(tiles_of_samples(window_.y1 - window_.y0, camera.n * grid.edge)),
       vertices_(std::make_unique_for_overwrite<ScreenVertex[]>(scene.positions.size())),
@@ -72,24 +76,34 @@ std::vector<VisibleBins::Batch> VisibleBins::batches() const {
   return batches;
 }
 
+// The records of four vertices become four x, four y, four w and four states. (Sixteen bytes are in every x86-64's
+// reach, and the rest is loads and stores: nothing here gains from wider lanes.)
+void VisibleBins::load_chunk(const Corners3* corners, TriangleChunk& chunk) const {
+  using Four = std::int32_t __attribute__((vector_size(16)));
+  const auto record = [&](std::size_t triangle, std::size_t k) {
+    return std::bit_cast<Four>(
+        vertices_[corners[std::min(triangle, static_cast<std::size_t>(chunk.size) - 1)][k]]);
+  };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(chunk.size); i += 4)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Four a = record(i, k), b = record(i + 1, k), c = record(i + 2, k), d = record(i + 3, k);
+      const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+                 cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+      const Four ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7),
+                 cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+      const auto put = [](const Four& four, auto* to) { std::memcpy(to, &four, sizeof(four)); };
+      put(__builtin_shufflevector(ab, cd, 0, 1, 4, 5), &chunk.x[k][i]);
+      put(__builtin_shufflevector(ab, cd, 2, 3, 6, 7), &chunk.y[k][i]);
+      put(__builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5), &chunk.w[k][i]);
+      put(__builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7), &chunk.state[k][i]);
+    }
+}
+
 void VisibleBins::set_up_triangles(const Batch& batch, Workshop& shop, ThreadBins& bins) const {
   TriangleChunk& chunk = shop.chunk;
   for (std::uint32_t done = 0; done < batch.size; done += TriangleChunk::kSize) {
     chunk.size = static_cast<int>(std::min<std::uint32_t>(TriangleChunk::kSize, batch.size - done));
-    const Triangle* const triangles = &scene_.triangles[batch.first_triangle + done];
-    for (std::size_t i = 0; i < static_cast<std::size_t>(chunk.size); ++i) {
-      std::uint32_t any_state = 0, all_state = ~0u;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const ScreenVertex& v = vertices_[triangles[i].vertex[k]];
-        chunk.x[k][i] = v.x;
-        chunk.y[k][i] = v.y;
-        chunk.w[k][i] = v.w;
-        any_state |= v.state;
-        all_state &= v.state;
-      }
-      chunk.any_state[i] = static_cast<std::int32_t>(any_state);
-      chunk.all_state[i] = static_cast<std::int32_t>(all_state);
-    }
+    load_chunk(corners_ + batch.first_triangle + done, chunk);
     set_up_chunk(shop, batch.first_triangle + done, batch.first_primitive + done, bins);
   }
 }
@@ -99,13 +113,14 @@ void VisibleBins::set_up_chunk(Workshop& shop, std::uint32_t first_triangle, std
                                ThreadBins& bins) const {
   TriangleChunk& chunk = shop.chunk;
   kernels_.set_up(space_, window_, chunk);
-  std::size_t tiny = 0, small = 0, others = 0;
+  std::size_t tiny = 0, front = 0, back = 0, others = 0;
   for (std::int32_t i = 0; i < chunk.size; ++i) {
     const std::int32_t kind = chunk.kind[static_cast<std::size_t>(i)];
-    shop.tiny[tiny] = shop.small[small] = shop.others[others] = i;
+    shop.tiny[tiny] = shop.front[front] = shop.back[back] = shop.others[others] = i;
     tiny += kind == TriangleChunk::kTiny;
-    small += kind == TriangleChunk::kSmall;
-    others += kind > TriangleChunk::kSmall;
+    front += kind == TriangleChunk::kFront;
+    back += kind == TriangleChunk::kBack;
+    others += kind > TriangleChunk::kBack;
   }
   const auto box_of = [&](std::int32_t place) {
     const auto i = static_cast<std::size_t>(place);
@@ -119,15 +134,19 @@ void VisibleBins::set_up_chunk(Workshop& shop, std::uint32_t first_triangle, std
     collect_fragments(shop, first_primitive, bins);
     for (std::size_t q = done; q < done + size; ++q) tests += area(box_of(shop.tiny[q]));
   }
-  for (std::size_t q = 0; q < small; ++q) {
-    const SampleBox box = box_of(shop.small[q]);
-    const auto place = static_cast<std::uint32_t>(shop.small[q]);
-    const SmallTriangle triangle{first_triangle + place, first_primitive + place};
-    for_each_bin(bins, box, [&](TileBin& bin) { bin.small.push_back(triangle); });
-    tests += area(box);
-  }
+  const auto put = [&](const auto& queue, std::size_t size, std::vector<SmallTriangle> TileBin::*list) {
+    for (std::size_t q = 0; q < size; ++q) {
+      const SampleBox box = box_of(queue[q]);
+      const auto place = static_cast<std::uint32_t>(queue[q]);
+      const SmallTriangle triangle{first_triangle + place, first_primitive + place};
+      for_each_bin(bins, box, [&](TileBin& bin) { (bin.*list).push_back(triangle); });
+      tests += area(box);
+    }
+  };
+  put(shop.front, front, &TileBin::front);
+  put(shop.back, back, &TileBin::back);
   bins.counts.tests += tests;
-  bins.counts.filtered += 3 * tests + tiny + small;  // draw_exactly() takes back what it decides
+  bins.counts.filtered += 3 * tests + tiny + front + back;  // draw_exactly() takes back what it decides
   for (std::size_t q = 0; q < others; ++q) {
     const auto place = static_cast<std::uint32_t>(shop.others[q]);
     set_up_in_double(first_triangle + place, first_primitive + place, box_of(shop.others[q]),
@@ -178,7 +197,7 @@ void VisibleBins::set_up_in_double(std::uint32_t index, std::uint32_t primitive,
   if (side == 0) return;  // seen exactly edge-on
   bins.counts.tests += area(box);
   bins.counts.filtered += 3 * area(box);
-  if (small) return for_each_bin(bins, box, [&](TileBin& bin) { bin.small.push_back({index, primitive}); });
+  if (small) return for_each_bin(bins, box, [&](TileBin& bin) { bin.back.push_back({index, primitive}); });
 
   LargeSurface surface;
   surface.primitive = primitive;
@@ -214,7 +233,8 @@ void VisibleBins::set_up_other(std::uint32_t primitive, ThreadBins& bins) const 
   for_each_bin(bins, box, [&](TileBin& bin) { bin.large.push_back(number); });
 }
 
-// Large surfaces first, the near ones before the far: they hide whole blocks.
+// Large surfaces first, the near ones before the far: they hide whole blocks. Back faces last: where front faces of
+// closed meshes fill a block, they are hidden.
 void VisibleBins::draw(const TileView& view, int tile) const {
   const auto t = static_cast<std::size_t>(tile);
   std::vector<const LargeSurface*> large;
@@ -227,11 +247,16 @@ void VisibleBins::draw(const TileView& view, int tile) const {
     for (const std::uint32_t number : bins.tiles[t].spheres)
       draw_sphere(view, bins.spheres[number].primitive, bins.spheres[number].box);
   for (const LargeSurface* surface : large) kernels_.draw_large(view, *surface);
-  for (const ThreadBins& bins : threads_) {
-    const TileBin& bin = bins.tiles[t];
-    kernels_.draw_small(view, space_, vertices_.get(), bin.small.data(), bin.small.size());
-    draw_fragments(view, bin.fragments);
-  }
+  const auto draw_small = [&](std::vector<SmallTriangle> TileBin::*list) {
+    for (const ThreadBins& bins : threads_) {
+      const std::vector<SmallTriangle>& small = bins.tiles[t].*list;
+      kernels_.draw_small(view, space_, vertices_.get(), corners_, small.data(), small.size());
+    }
+  };
+  draw_small(&TileBin::front);
+  for (const ThreadBins& bins : threads_) draw_fragments(view, bins.tiles[t].fragments);
+  kernels_.find_farthest(view);
+  draw_small(&TileBin::back);
 }
 
 }  // namespace sidelight::raster

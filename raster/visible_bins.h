@@ -13,7 +13,7 @@ namespace sidelight::raster {
 
 // What one thread found for one tile.
 struct TileBin {
-  std::vector<SmallTriangle> small;
+  std::vector<SmallTriangle> front, back;
   std::vector<ScreenFragment> fragments;  // of tiny triangles
   std::vector<std::uint32_t> large;       // into ThreadBins::large
   std::vector<std::uint32_t> spheres;     // into ThreadBins::spheres
@@ -33,7 +33,9 @@ struct ThreadBins {
 
 class VisibleBins {
  public:
-  VisibleBins(const Scene& scene, const Camera& camera, const TileGrid& grid, Isa isa, int threads);
+  // `corners`: of all triangles of the scene, once more, in the 12 bytes that set-up reads.
+  VisibleBins(const Scene& scene, const Corners3* corners, const Camera& camera, const TileGrid& grid,
+              Isa isa, int threads);
 
   // Draws what the bins of a tile hold, all threads' alike.
   void draw(const TileView& view, int tile) const;
@@ -48,6 +50,7 @@ class VisibleBins {
   struct Workshop;  // what one thread sets up in
 
   std::vector<Batch> batches() const;
+  void load_chunk(const Corners3* corners, TriangleChunk& chunk) const;
   void set_up_triangles(const Batch& batch, Workshop& shop, ThreadBins& bins) const;
   void set_up_chunk(Workshop& shop, std::uint32_t first_triangle, std::uint32_t first_primitive,
                     ThreadBins& bins) const;
@@ -67,6 +70,7 @@ class VisibleBins {
   int tile_row(int Y) const { return tile_rows_[static_cast<std::size_t>(Y - window_.y0)]; }
 
   const Scene& scene_;
+  const Corners3* corners_;
   const Camera& camera_;
   const TileGrid& grid_;
   const Kernels& kernels_;

@@ -20,77 +20,115 @@ void for_each_lane(const Mask<F>& mask, int X, int Y, const Ask& ask) {
 }
 
 // Keeps the primitive where it is covered, sure, and surely nearer than what the samples hold. Returns where the order
-// is doubtful. `held` is what they hold, and then what they hold now.
+// is doubtful. `held` becomes what they hold now. Without a branch: who wins is hard to foresee.
 template <class F>
 Mask<F> keep_nearer(const TileView& tile, int index, std::uint32_t primitive, const Mask<F>& covered,
                     const Mask<F>& sure, const F& w, F& held) {
   auto* const ids = reinterpret_cast<std::int32_t*>(tile.primitive + index);
+  held = load<F>(tile.w + index);
   const Mask<F> nearer = covered && sure && w > held * F(kSurely);
   const Mask<F> farther = sure && w * F(kSurely) < held;
-  const Mask<F> doubtful = covered && !(nearer || farther);
-  if (any<F>(nearer)) {
-    held = select<F>(nearer, w, held);
-    store(held, tile.w + index);
-    const F id = from_bits<F>(Ints<F>(static_cast<std::int32_t>(primitive)));
-    store(to_bits<F>(select<F>(nearer, id, from_bits<F>(load<Ints<F>>(ids)))), ids);
-  }
-  return doubtful;
+  held = select<F>(nearer, w, held);
+  store(held, tile.w + index);
+  const F id = from_bits<F>(Ints<F>(static_cast<std::int32_t>(primitive)));
+  store(to_bits<F>(select<F>(nearer, id, from_bits<F>(load<Ints<F>>(ids)))), ids);
+  return covered && !(nearer || farther);
+}
+
+// Asks exactly about the order where `mask` holds; lane 0 is sample (X, Y).
+template <class F>
+void order_lanes_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, const Mask<F>& mask,
+                         const F& w, const Mask<F>& sure) {
+  alignas(64) float ws[kLanes<F>];
+  store(select<F>(sure, w, F(0)), ws);
+  for_each_lane<F>(mask, X, Y, [&](int x, int y) { order_exactly(tile, primitive, x, y, ws[x - X]); });
 }
 
 // ---- Small triangles ----
+
+// Whether all samples of the blocks that a box touches surely hold something nearer than 1/t = w.
+template <class Set>
+bool hidden(const TileView& tile, int x0, int y0, int x1, int y1, float w) {
+  constexpr int kColumns = TileView::kBlockColumns, kRows = TileView::kBlockRows;
+  const int first = (x0 - tile.box.x0) / kColumns, last = (x1 - 1 - tile.box.x0) / kColumns;
+  for (int row = (y0 - tile.box.y0) / kRows; row <= (y1 - 1 - tile.box.y0) / kRows; ++row)
+    for (int column = first; column <= last; ++column)
+      if (!(w * kSurely < tile.farthest[row * tile.block_columns + column])) return false;
+  return true;
+}
 
 template <class F>
 void draw_small_triangle(const TileView& tile, const ScreenSpace& space, const ScreenVertex& a,
                          const ScreenVertex& b, const ScreenVertex& c, std::uint32_t primitive) {
   const std::array<std::int32_t, 3> x{a.x, b.x, c.x}, y{a.y, b.y, c.y};
-  const ScreenTriangle<float> t = screen_triangle<float, F>(x, y, {a.w, b.w, c.w});
-  const Box<std::int32_t> box = box_of_places(space, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
-                                              std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}));
+  const Box<std::int32_t> box =
+      box_of_places(space, lane_min(lane_min(a.x, b.x), c.x), lane_min(lane_min(a.y, b.y), c.y),
+                    lane_max(lane_max(a.x, b.x), c.x), lane_max(lane_max(a.y, b.y), c.y));
   const int x0 = std::max(box.x0, tile.box.x0), x1 = std::min(box.x1, tile.box.x1);
   const int y0 = std::max(box.y0, tile.box.y0), y1 = std::min(box.y1, tile.box.y1);
+  if (hidden<F>(tile, x0, y0, x1, y1, lane_max(lane_max(a.w, b.w), c.w))) return;
+  const ScreenTriangle<float> t = screen_triangle<float, F>(x, y, {a.w, b.w, c.w});
+  const Mask<F> sure_depth(t.sure_depth);
 
-  const F unit(static_cast<float>(1 << space.bits));
-  for (int X = x0; X < x1; X += kLanes<F>) {
+  const F unit(static_cast<float>(1 << space.bits)), doubt(t.doubt);
+  std::uint64_t fragments = 0;
+  for (int X = x0 - (x0 - tile.box.x0) % kLanes<F>; X < x1; X += kLanes<F>) {
     // E_k = across_k - down_k, the one constant along a column, the other along a row.
     std::array<F, 3> across;
     for (std::size_t k = 0; k < 3; ++k)
-      across[k] =
-          (F(static_cast<float>(x[(k + 1) % 3] - space.place_of_column(X))) - lane_numbers<F>() * unit) *
-          F(t.dy[k]);
-    const Mask<F> in_box = lane_numbers<F>() < F(static_cast<float>(x1 - X));
+      across[k] = (F(static_cast<float>(x[(k + 1) % 3] - space.place_of_column(x0))) -
+                   (lane_numbers<F>() + F(static_cast<float>(X - x0))) * unit) *
+                  F(t.dy[k]);
+    const F column = lane_numbers<F>() + F(static_cast<float>(X - x0));
+    const Mask<F> in_box = column >= F(0) && column < F(static_cast<float>(x1 - x0));
     for (int Y = y0; Y < y1; ++Y) {
       std::array<F, 3> e;
       for (std::size_t k = 0; k < 3; ++k)
         e[k] = across[k] - F(static_cast<float>(y[(k + 1) % 3] - space.place_of_row(Y)) * t.dx[k]);
       const F least = lane_min(lane_min(e[0], e[1]), e[2]);
-      const Mask<F> covered = in_box && least > F(t.doubt);
-      Mask<F> doubtful = in_box && (t.sure_side ? lane_abs(least) <= F(t.doubt) : least == least);
-      if (t.sure_side && any<F>(covered)) {
-        const int index = tile.index(X, Y);
-        F held = load<F>(tile.w + index);
-        const F w = F(t.w0) + (e[1] * F(t.slope1) + e[2] * F(t.slope2));
-        const Mask<F> beyond =
-            keep_nearer<F>(tile, index, primitive, covered, Mask<F>(t.sure_depth), w, held);
-        tile.counts.fragments += static_cast<std::uint64_t>(count<F>(covered));
-        if (any<F>(beyond))
-          for_each_lane<F>(beyond, X, Y, [&](int sx, int sy) { order_exactly(tile, primitive, sx, sy); });
+      Mask<F> covered = in_box && least > doubt, doubtful = in_box && lane_abs(least) <= doubt;
+      if (!t.sure_side) {
+        covered = in_box && !in_box;
+        doubtful = in_box;
       }
-      if (any<F>(doubtful))
+      F held;
+      const F w = F(t.w0) + (e[1] * F(t.slope1) + e[2] * F(t.slope2));
+      const Mask<F> tied = keep_nearer<F>(tile, tile.index(X, Y), primitive, covered, sure_depth, w, held);
+      fragments += static_cast<std::uint64_t>(count<F>(covered));
+      if (any<F>(tied || doubtful)) {
+        order_lanes_exactly<F>(tile, primitive, X, Y, tied, w, sure_depth);
         for_each_lane<F>(doubtful, X, Y, [&](int sx, int sy) { draw_exactly(tile, primitive, sx, sy, 3); });
+      }
     }
   }
+  tile.counts.fragments += fragments;
 }
 
 template <class F>
 [[gnu::flatten]] void draw_small_triangles(const TileView& tile, const ScreenSpace& space,
-                                           const ScreenVertex* vertices, const SmallTriangle* triangles,
-                                           std::size_t size) {
-  const Triangle* const all = tile.scene.triangles.data();
+                                           const ScreenVertex* vertices, const Corners3* corners,
+                                           const SmallTriangle* triangles, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) {
-    const Triangle& triangle = all[triangles[i].triangle];
-    draw_small_triangle<F>(tile, space, vertices[triangle.vertex[0]], vertices[triangle.vertex[1]],
-                           vertices[triangle.vertex[2]], triangles[i].primitive);
+    const Corners3& corner = corners[triangles[i].triangle];
+    draw_small_triangle<F>(tile, space, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]],
+                           triangles[i].primitive);
   }
+}
+
+template <class F>
+[[gnu::flatten]] void find_farthest_of_blocks(const TileView& tile) {
+  constexpr int kColumns = TileView::kBlockColumns, kRows = TileView::kBlockRows;
+  const F infinite(std::numeric_limits<float>::infinity());
+  for (int Y0 = tile.box.y0, row = 0; Y0 < tile.box.y1; Y0 += kRows, ++row)
+    for (int X0 = tile.box.x0, column = 0; X0 < tile.box.x1; X0 += kColumns, ++column) {
+      F far = infinite;
+      for (int Y = Y0; Y < std::min(Y0 + kRows, tile.box.y1); ++Y)
+        for (int X = X0; X < std::min(X0 + kColumns, tile.box.x1); X += kLanes<F>) {
+          const Mask<F> in_tile = lane_numbers<F>() < F(static_cast<float>(tile.box.x1 - X));
+          far = lane_min(far, select<F>(in_tile, load<F>(tile.w + tile.index(X, Y)), infinite));
+        }
+      tile.farthest[row * tile.block_columns + column] = least<F>(far);
+    }
 }
 
 // ---- Large surfaces ----
@@ -168,19 +206,16 @@ void draw_block(const TileView& tile, const LargeSurface& surface, int X0, int Y
         covered = covered && !doubtful && depth > F(0);
       }
       const int index = tile.index(X0 + i, Y0 + j);
-      F held = load<F>(tile.w + index);
-      if (any<F>(covered)) {
-        tile.counts.fragments += static_cast<std::uint64_t>(count<F>(covered));
-        const Mask<F> beyond =
-            keep_nearer<F>(tile, index, surface.primitive, covered, depth > F(floor), depth, held);
-        if (any<F>(beyond))
-          for_each_lane<F>(beyond, X0 + i, Y0 + j,
-                           [&](int X, int Y) { order_exactly(tile, surface.primitive, X, Y); });
-      }
-      if (any<F>(doubtful))
+      F held;
+      const Mask<F> sure_depth = depth > F(floor);
+      const Mask<F> tied = keep_nearer<F>(tile, index, surface.primitive, covered, sure_depth, depth, held);
+      tile.counts.fragments += static_cast<std::uint64_t>(count<F>(covered));
+      if (any<F>(tied || doubtful)) {
+        order_lanes_exactly<F>(tile, surface.primitive, X0 + i, Y0 + j, tied, depth, sure_depth);
         for_each_lane<F>(doubtful, X0 + i, Y0 + j, [&](int X, int Y) {
           draw_exactly(tile, surface.primitive, X, Y, surface.bounded ? 3 : 0);
         });
+      }
       least_held = lane_min(least_held, select<F>(in_box, held, F(std::numeric_limits<float>::infinity())));
     }
   if (edges > 0) return;

@@ -18,9 +18,9 @@ Hit hit_at(const TileView& tile, std::uint32_t primitive, int X, int Y, SignCoun
 }
 
 // Keeps a hit that was found exactly where it comes before what the sample holds.
-void keep_exactly(const TileView& tile, int X, int Y, const Hit& hit) {
+void keep_exactly(const TileView& tile, int X, int Y, const Hit& hit, float w) {
   const auto i = static_cast<std::size_t>(tile.index(X, Y));
-  const float w = static_cast<float>(1 / hit.t), held = tile.w[i];
+  const float held = tile.w[i];
   if (w * kSurely < held) return;
   if (tile.primitive[i] != kNone && !(w > held * kSurely)) {
     SignCounts not_counted;  // it was when it was drawn
@@ -37,12 +37,13 @@ void draw_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, i
   const Hit hit = hit_at(tile, primitive, X, Y, tile.counts);
   if (!hit.found()) return;
   ++tile.counts.fragments;
-  keep_exactly(tile, X, Y, hit);
+  keep_exactly(tile, X, Y, hit, static_cast<float>(1 / hit.t));
 }
 
-void order_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y) {
+void order_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, float w) {
   SignCounts not_counted;  // the signs are, and so is the fragment
-  keep_exactly(tile, X, Y, hit_at(tile, primitive, X, Y, not_counted));
+  const Hit hit = hit_at(tile, primitive, X, Y, not_counted);
+  keep_exactly(tile, X, Y, hit, w > 0 ? w : static_cast<float>(1 / hit.t));
 }
 
 TileView VisibleTile::clear(const Scene& scene, const Camera& camera, const SampleBox& samples,
@@ -50,13 +51,20 @@ TileView VisibleTile::clear(const Scene& scene, const Camera& camera, const Samp
   const int columns = samples.x1 - samples.x0, rows = samples.y1 - samples.y0;
   const int block_columns = (columns + TileView::kBlockColumns - 1) / TileView::kBlockColumns;
   const int block_rows = (rows + TileView::kBlockRows - 1) / TileView::kBlockRows;
-  const auto size =
-      static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + TileView::kBlockColumns;
+  const int stride = block_columns * TileView::kBlockColumns;
+  const auto size = static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows);
   w_.assign(size, 0.0f);
   primitive_.assign(size, kNone);
   farthest_.assign(static_cast<std::size_t>(block_columns) * static_cast<std::size_t>(block_rows), 0.0f);
-  return {scene,           camera, counts, samples, columns, block_columns, w_.data(), primitive_.data(),
+  return {scene,           camera, counts, samples, stride, block_columns, w_.data(), primitive_.data(),
           farthest_.data()};
+}
+
+const std::uint32_t* VisibleTile::primitives(const TileView& tile) {
+  const std::ptrdiff_t columns = tile.box.x1 - tile.box.x0, rows = tile.box.y1 - tile.box.y0;
+  for (std::ptrdiff_t row = 1; row < rows && columns != tile.stride; ++row)
+    std::copy_n(primitive_.begin() + row * tile.stride, columns, primitive_.begin() + row * columns);
+  return primitive_.data();
 }
 
 void draw_fragments(const TileView& tile, const std::vector<ScreenFragment>& fragments) {
@@ -67,7 +75,7 @@ void draw_fragments(const TileView& tile, const std::vector<ScreenFragment>& fra
       tile.w[i] = fragment.w;
       tile.primitive[i] = fragment.primitive;
     } else if (fragment.w == 0 || !(fragment.w * kSurely < held)) {
-      order_exactly(tile, fragment.primitive, fragment.X, fragment.Y);
+      order_exactly(tile, fragment.primitive, fragment.X, fragment.Y, fragment.w);
     }
   }
 }
@@ -80,7 +88,7 @@ void draw_sphere(const TileView& tile, std::uint32_t primitive, const SampleBox&
       const Hit hit = hit_at(tile, primitive, X, Y, tile.counts);
       if (!hit.found()) continue;
       ++tile.counts.fragments;
-      keep_exactly(tile, X, Y, hit);
+      keep_exactly(tile, X, Y, hit, static_cast<float>(1 / hit.t));
     }
 }
 

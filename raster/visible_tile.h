@@ -26,6 +26,7 @@ struct LargeSurface {
 struct SmallTriangle {
   std::uint32_t triangle = 0, primitive = kNone;
 };
+using Corners3 = std::array<std::uint32_t, 3>;  // of a triangle, into Scene::positions
 
 // A sample that a tiny triangle covers.
 struct ScreenFragment {
@@ -34,7 +35,8 @@ struct ScreenFragment {
   std::uint32_t primitive = kNone;
 };
 
-// What a kernel sees of a tile. Blocks are kBlockColumns x kBlockRows samples, from the tile's upper left.
+// What a kernel sees of a tile. Blocks are kBlockColumns x kBlockRows samples, from the tile's upper left; rows hold whole
+// blocks, so that vectors lie at the same places in memory for all triangles, and a store forwards to the next load.
 struct TileView {
   static constexpr int kBlockColumns = 16, kBlockRows = 8;
 
@@ -42,27 +44,28 @@ struct TileView {
   const Camera& camera;
   SignCounts& counts;
   SampleBox box;
-  int columns = 0, block_columns = 0;
-  float* w = nullptr;                  // row by row; 0 on background; readable kBlockColumns beyond the end
+  int stride = 0, block_columns = 0;
+  float* w = nullptr;                  // row by row; 0 on background
   std::uint32_t* primitive = nullptr;  // likewise; kNone on background
   float* farthest = nullptr;           // of each block: no sample is farther, by w
 
-  int index(int X, int Y) const { return (Y - box.y0) * columns + (X - box.x0); }
+  int index(int X, int Y) const { return (Y - box.y0) * stride + (X - box.x0); }
 };
 
 // Asks visibility.h whether the primitive covers the sample and is the nearest there. `filtered`: how many signs were
 // counted as decided by the filter in advance.
 void draw_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, int filtered);
-// The same for a primitive that is known to cover the sample: whether it is the nearest.
-void order_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y);
+// The same for a primitive that is known to cover the sample: whether it is the nearest. Its w, or 0 where that is not
+// sure. (What a sample holds is so a function of the primitive alone, whichever way it won: no count depends on order.)
+void order_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, float w);
 
 class VisibleTile {
  public:
   // Sets the tile to background. The vectors keep their memory from tile to tile.
   TileView clear(const Scene& scene, const Camera& camera, const SampleBox& samples, SignCounts& counts);
 
-  // After all is drawn: the primitive of each sample, row by row.
-  const std::uint32_t* primitives() const { return primitive_.data(); }
+  // After all is drawn: the primitive of each sample, row by row, without gaps.
+  const std::uint32_t* primitives(const TileView& tile);
 
  private:
   std::vector<float> w_, farthest_;

@@ -7,6 +7,7 @@
 // Schwarz), which is greater and cheaper. A lane that fails it is marked, and asked again by surface_at().
 #pragma once
 
+#include "common/math/lane_ops.h"
 #include "common/math/vec.h"
 #include "common/model/surface_batch.h"
 
@@ -22,16 +23,8 @@ Vec3<F> wide(const Vec3<double>& v) {
   return {F(v.x), F(v.y), F(v.z)};
 }
 template <class F>
-F absolute(const F& x) {
-  return select<F>(x < F(0), -x, x);
-}
-template <class F>
 F size(const Vec3<F>& v) {
-  return (absolute(v.x) + absolute(v.y)) + absolute(v.z);
-}
-template <class F>
-F greater(const F& a, const F& b) {
-  return select<F>(a < b, b, a);
+  return (lane_abs(v.x) + lane_abs(v.y)) + lane_abs(v.z);
 }
 // As glm::normalize: by the reciprocal of the length.
 template <class F>
@@ -130,7 +123,7 @@ TriangleLanes<F> triangle_lanes(const SurfaceLanes<F>& lanes, const Vec3<F>& eye
   out.n = cross(out.e1, out.e2);
   Vec3<F> outward = out.n;
   if (lanes.group().flat) {
-    const F most = greater(greater(absolute(out.n.x), absolute(out.n.y)), absolute(out.n.z));
+    const F most = lane_max(lane_max(lane_abs(out.n.x), lane_abs(out.n.y)), lane_abs(out.n.z));
     outward = normalized(Vec3<F>{out.n.x / most, out.n.y / most, out.n.z / most});
   }
   out.facing = select<F>(side < F(0), outward, -outward);
@@ -156,7 +149,7 @@ Vec3<F> triangle_normal(const TriangleLanes<F>& triangle, const std::array<F, 3>
   for (std::size_t k = 0; k < 3; ++k) smooth = smooth + barycentric[k] * triangle.normal[k];
   const F side = dot(smooth, triangle.facing), size_of_smooth = size(smooth);
   const Mask<F> none = size_of_smooth == F(0);
-  const Mask<F> sure_side = absolute(side) > F(0x1p-48) * (size_of_smooth * triangle.facing_size);
+  const Mask<F> sure_side = lane_abs(side) > F(0x1p-48) * (size_of_smooth * triangle.facing_size);
   const Vec3<F> turned = select<F>(side < F(0), -smooth, smooth);
   if (!group.flat) {
     sure = sure && sure_side;
@@ -176,7 +169,7 @@ void triangle_surfaces(const SurfaceView& view, const TriangleLanes<F>& triangle
   const Vec3<F> d = lanes.direction(view);
   std::array<F, 3> e{dot(d, triangle.edge[0]), dot(d, triangle.edge[1]), dot(d, triangle.edge[2])};
   const F all = (e[0] + e[1]) + e[2], size_of_d = size(d);
-  Mask<F> sure = triangle.sure && size_of_d * triangle.lengths2 <= F(0x1p30) * absolute(all);
+  Mask<F> sure = triangle.sure && size_of_d * triangle.lengths2 <= F(0x1p30) * lane_abs(all);
   const Mask<F> negative = all < F(0);
   for (F& each : e) each = select<F>((each < F(0)) != negative, F(0), each);
   const F sum = (e[0] + e[1]) + e[2];
