@@ -34,7 +34,7 @@ inline std::vector<std::string> shipped_scenes() {
 }
 
 // Those in which a fault on purpose shows; without it they keep every promise.
-inline std::vector<std::string> hard_scenes() {
+inline std::vector<std::string> hard_scene_files() {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(SIDELIGHT_SOURCE_DIR "/scenes/hard"))
     files.push_back(entry.path().string());

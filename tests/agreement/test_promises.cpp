@@ -22,7 +22,7 @@ namespace {
 std::vector<std::string> all_scenes() {
   std::vector<std::string> files = shipped_scenes();
   files.push_back(kEverything);
-  for (const std::string& hard : hard_scenes()) files.push_back(hard);
+  for (const std::string& hard : hard_scene_files()) files.push_back(hard);
   return files;
 }
 

@@ -208,8 +208,9 @@ TEST_CASE("bench: a fault fails the gate, by the samples it spoils") {
   const BenchResult result = run_sweep(plan);
   CHECK(result.points[0].failures.empty());
   CHECK(result.points[1].mismatches > 0);
-  REQUIRE(result.points[1].failures.size() == 1);
+  REQUIRE(result.points[1].failures.size() == 2);
   CHECK(result.points[1].failures[0].find("another surface") != std::string::npos);
+  CHECK(result.points[1].failures[1].find("hard cases: ") == 0);
 }
 
 // In little, so that only which surface is seen and what rounding does are judged here; not the fronts, which need times.

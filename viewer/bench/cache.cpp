@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/bench/cache.h"
 
+#include <array>
 #include <cstdlib>
+#include <fstream>
 #include <string_view>
 
 #include "common/content_hash.h"
@@ -31,6 +33,21 @@ std::filesystem::path usual_cache_folder() {
   if (const auto folder = absolute_from("XDG_CACHE_HOME"); !folder.empty()) return folder / "sidelight";
   const auto home = absolute_from("HOME");
   return home.empty() ? home : home / ".cache" / "sidelight";
+}
+
+const std::string& program_hash() {
+  static const std::string hash = [] {
+    std::ifstream file("/proc/self/exe", std::ios::binary);
+    ContentHash content;
+    std::array<char, 65536> block{};
+    bool any = false;
+    while (file.read(block.data(), block.size()) || file.gcount() > 0) {
+      content.add({block.data(), static_cast<std::size_t>(file.gcount())});
+      any = true;
+    }
+    return any ? content.hex() : std::string();
+  }();
+  return hash;
 }
 
 std::filesystem::path PictureCache::file_of(const std::string& key) const {

@@ -16,6 +16,10 @@ namespace sidelight {
 // kept (XDG Base Directory Specification 0.8).
 std::filesystem::path usual_cache_folder();
 
+// A hash of this program's own file, read once: part of what a picture depends on, since another build of the same
+// version may make another one. Empty where the file cannot be read.
+const std::string& program_hash();
+
 class PictureCache {
  public:
   // Made when it is first written to. An empty one keeps nothing.

@@ -10,30 +10,6 @@
 namespace sidelight {
 namespace {
 
-// The picture's samples against the exact ones. Facets are numbered otherwise than what they stand for, so with them
-// objects are compared.
-struct Samples {
-  std::uint64_t mismatches = 0;
-  double depth_error = 0;     // relative, the greatest where both see the same
-  std::vector<char> covered;  // one a pixel: something is seen in either
-};
-
-Samples compare_samples(const Frame& frame, const std::vector<std::uint32_t>& primitive,
-                        const std::vector<double>& depth, const auto& same_surface) {
-  Samples out;
-  out.covered.resize(frame.pixels());
-  const auto per_pixel = static_cast<std::size_t>(frame.n) * static_cast<std::size_t>(frame.n);
-  for (std::size_t i = 0; i < primitive.size(); ++i) {
-    const std::uint32_t seen = frame.sample_primitive[i];
-    if (seen != kNone || primitive[i] != kNone) out.covered[i / per_pixel] = 1;
-    if (!same_surface(seen, primitive[i]))
-      ++out.mismatches;
-    else if (seen != kNone)
-      out.depth_error = std::max(out.depth_error, std::abs(frame.sample_depth[i] - depth[i]) / depth[i]);
-  }
-  return out;
-}
-
 // A power of two that makes all but the greatest differences visible.
 double gain_for(const ErrorMeasure& error) {
   if (error.p999 <= 0) return 1;
@@ -59,18 +35,6 @@ void add_counts(const Frame& frame, BenchPoint& point) {
 
 }  // namespace
 
-const PictureJudge::Visible& PictureJudge::exact_visibility(bool raster, int n) {
-  const auto [at, added] = visible_.try_emplace({raster, n});
-  if (!added) return at->second;
-  Setting exact;
-  exact.raster = raster;
-  exact.n = n;
-  exact.depth = 1;
-  Frame frame = stage_.render(exact, true);
-  at->second = {std::move(frame.sample_primitive), std::move(frame.sample_depth)};
-  return at->second;
-}
-
 const std::vector<glm::vec3>& PictureJudge::truth_of(const Model& model, int n) {
   const auto [at, added] = truths_.try_emplace({model, n});
   if (added) at->second = stage_.render_in_double(model, stage_.camera(n)).color;
@@ -84,23 +48,14 @@ void PictureJudge::judge(const Setting& setting, BenchPoint& point) {
   add_counts(frame, point);
 
   // Gates: what is seen, and whether all of it is a number.
-  const Visible& exact = exact_visibility(!setting.raster, setting.n);
-  const Scene& own = stage_.scene_of(setting);
-  const auto object = [](const Scene& of, std::uint32_t primitive) {
-    return primitive == kNone ? kNone : of.primitive_object[primitive];
-  };
-  const bool by_object = setting.faults.tessellate.has_value();
-  const Samples samples =
-      compare_samples(frame, exact.primitive, exact.depth, [&](std::uint32_t a, std::uint32_t b) {
-        return by_object ? object(own, a) == object(scene, b) : a == b;
-      });
+  const VisibleError visible = visible_.compare(setting, frame);
   const auto error_against = [&](const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth) {
-    return picture_error(picture, truth, samples.covered, width, height);
+    return picture_error(picture, truth, visible.covered, width, height);
   };
   const std::vector<glm::vec3>& reference = reference_.picture(reference_n_).color;
   point.error = error_against(frame.color, reference);
-  point.error.whole.depth = point.error.covered.depth = samples.depth_error;
-  point.mismatches = samples.mismatches;
+  point.error.whole.depth = point.error.covered.depth = visible.depth_error;
+  point.mismatches = visible.mismatches;
   if (point.mismatches > 0)
     point.failures.push_back(fmt::format("samples that show another surface: {}", point.mismatches));
   if (const std::uint64_t bad = point.error.whole.metrics.non_finite; bad > 0)
@@ -116,8 +71,8 @@ void PictureJudge::judge(const Setting& setting, BenchPoint& point) {
   kind(ErrorKind::model) = error_against(truth, full);
   if (setting.n < reference_n_) kind(ErrorKind::sampling) = error_against(full, reference);
   // A depth is off by the model where facets stand for a sphere, else by arithmetic.
-  PictureError& depth = *kind(by_object ? ErrorKind::model : ErrorKind::arithmetic);
-  depth.whole.depth = depth.covered.depth = samples.depth_error;
+  PictureError& depth = *kind(setting.faults.tessellate ? ErrorKind::model : ErrorKind::arithmetic);
+  depth.whole.depth = depth.covered.depth = visible.depth_error;
 
   point.picture = to_image8(frame.color, width, height);
   point.difference_gain = gain_for(point.error.whole);

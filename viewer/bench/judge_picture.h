@@ -9,6 +9,7 @@
 #include <map>
 
 #include "viewer/bench/reference.h"
+#include "viewer/bench/visible.h"
 
 namespace sidelight {
 
@@ -23,18 +24,12 @@ class PictureJudge {
   void judge(const Setting& setting, BenchPoint& point);
 
  private:
-  // Who is the nearest at every sample, by the other renderer: the two share no loop.
-  struct Visible {
-    std::vector<std::uint32_t> primitive;
-    std::vector<double> depth;
-  };
-  const Visible& exact_visibility(bool raster, int n);
   const std::vector<glm::vec3>& truth_of(const Model& model, int n);
 
   Stage& stage_;
   Reference& reference_;
   int reference_n_;
-  std::map<std::pair<bool, int>, Visible> visible_;
+  VisibleJudge visible_{stage_};
   std::map<std::pair<Model, int>, std::vector<glm::vec3>> truths_;
 };
 

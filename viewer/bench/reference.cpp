@@ -5,18 +5,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <glm/gtx/component_wise.hpp>
 
 namespace sidelight {
 namespace {
 
 // Where brute force takes seconds, not hours: tests of a ray against a primitive.
 constexpr double kAffordableTests = 1e8;
-constexpr int kProbeWidth = 160;
-
-double rays_an_eye_ray(const RenderStats& stats) {
-  return static_cast<double>(stats.rays.total()) / static_cast<double>(stats.rays.primary);
-}
-
 double number(const std::string& text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -31,32 +26,44 @@ double rmse(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, co
 
 std::string Reference::key(int n) const {
   const Scene& scene = stage_.scene();
-  return fmt::format("reference image, {}, scene {}, {}x{}, {}x{} samples", SIDELIGHT_VERSION, scene.hash,
+  return fmt::format("reference image, program {}, scene {}, {}x{}, {}x{} samples", program_hash(), scene.hash,
                      scene.width, scene.height, n, n);
 }
 
-// Tried out on the same view with about kProbeWidth samples in a row: on fewer pixels where there are many, and with
-// more samples where there are few. Level by level while rays multiply, so that no step is a leap; else ever faster.
-Model Reference::full_model() {
-  const Scene& scene = stage_.scene();
-  const int smaller = (scene.width + kProbeWidth - 1) / kProbeWidth;
-  const Camera camera = make_camera(scene.camera, scene.width / smaller, std::max(scene.height / smaller, 1),
-                                    std::max(kProbeWidth / scene.width, 1));
-  Model affordable{{}, 1, 0, false};
+Reference::Trial Reference::trial(int depth, double cut) {
+  Trial out{{{}, depth, cut, false}};
+  const RenderStats stats = stage_.render_in_double(out.model, stage_.trial_camera()).stats;
+  out.unsent = stats.cut_weight;
+  out.steps = steps_an_eye_ray(stats);
+  out.all_sent = stats.cut_weight < 0x1p-24;
+  return out;
+}
+
+// Level by level while rays multiply, so that no step is a leap; else ever faster.
+Reference::Trial Reference::deepest(double cut) {
+  constexpr double kAffordable = kReferenceSteps / (1 + 4 + 16);
+  Trial best;
   for (int depth = 1, step = 1;;) {
-    const RenderStats stats = stage_.render_in_double({{}, depth, 0, false}, camera).stats;
-    const double rays = rays_an_eye_ray(stats);
-    if (rays > kMostRays) break;
-    step = rays < 1.1 * rays_an_eye_ray_ ? 2 * step : 1;
-    affordable.depth = depth;
-    rays_an_eye_ray_ = rays;
-    const bool all = stats.cut_weight < 0x1p-24 && depth >= scene.trace.depth;
-    if (all || depth == kMostDepth) break;
+    const Trial now = trial(depth, cut);
+    if (now.steps > kAffordable) return best;
+    step = now.steps < 1.1 * best.steps ? 2 * step : 1;
+    best = now;
+    if (now.all_sent || depth == kMostDepth) return best;
     depth = std::min(depth + step, kMostDepth);
   }
-  if (affordable.depth < scene.trace.depth)
-    return {{}, scene.trace.depth, scene.trace.contribution_cut, false};
-  return affordable;
+}
+
+Model Reference::full_model() {
+  Trial best = deepest(0);
+  if (best.all_sent || best.model.depth == kMostDepth) return best.model;
+  for (double cut = 0.125;; cut /= 2) {
+    const Trial now = deepest(cut);
+    if (now.unsent >= best.unsent && cut < 0.125) break;
+    if (now.unsent < best.unsent) best = now;
+  }
+  const TraceSettings& own = stage_.scene().trace;
+  const Trial asked = trial(own.depth, own.contribution_cut);
+  return asked.unsent < best.unsent ? asked.model : best.model;
 }
 
 Reference::Picture Reference::make(int n) {
@@ -65,13 +72,18 @@ Reference::Picture Reference::make(int n) {
   Picture out;
   out.model = n == 1 ? full_model() : picture(1).model;
   const Camera camera = stage_.camera(n);
-  Frame frame = stage_.render_in_double(out.model, camera);
+  const double planned = n == 1 ? 0 : 4 * picture(n / 2).steps;
+  Frame frame = stage_.render_in_double(out.model, camera, [&](double done) {
+    if (progress_) progress_(spent_ + done * planned);
+  });
   out.cut_weight = frame.stats.cut_weight;
-  const double tests = rays_an_eye_ray_ * static_cast<double>(frame.pixels()) *
-                       static_cast<double>(scene.primitive_object.size());
+  out.steps = steps_an_eye_ray(frame.stats) * n * n;
+  const double tests =
+      static_cast<double>(frame.stats.rays.total()) * static_cast<double>(scene.primitive_object.size());
   Metadata notes{{"depth", fmt::format("{}", out.model.depth)},
                  {"cut", fmt::format("{}", out.model.cut)},
-                 {"cut_weight", fmt::format("{}", out.cut_weight)}};
+                 {"cut_weight", fmt::format("{}", out.cut_weight)},
+                 {"steps", fmt::format("{}", out.steps)}};
   if (n == 1 && tests <= kAffordableTests) {
     out.against_brute_force = rmse(frame.color, stage_.render_reference(out.model, camera).color, scene);
     notes.emplace_back("against_brute_force", fmt::format("{}", *out.against_brute_force));
@@ -87,6 +99,7 @@ const Reference::Picture& Reference::picture(int n) {
     Picture out;
     out.model = {{}, static_cast<int>(number(kept->notes["depth"])), number(kept->notes["cut"]), false};
     out.cut_weight = number(kept->notes["cut_weight"]);
+    out.steps = number(kept->notes["steps"]);
     out.color = std::move(kept->color);
     if (const std::string& text = kept->notes["against_brute_force"]; !text.empty())
       out.against_brute_force = number(text);
@@ -96,12 +109,14 @@ const Reference::Picture& Reference::picture(int n) {
   return pictures_.emplace(n, std::move(made)).first->second;
 }
 
-ReferenceImage Reference::converge(const std::function<void(int n)>& progress) {
+ReferenceImage Reference::converge(std::function<void(double steps)> progress) {
+  progress_ = std::move(progress);
+  spent_ = 0;
   ReferenceImage image;
   image.bound = kReferenceBound;
   for (int n = 1; n <= 16; n *= 2) {
-    if (progress) progress(n);
     const Picture& now = picture(n);
+    spent_ += now.steps;
     image.depth = now.model.depth;
     image.cut = now.model.cut;
     image.cut_weight = now.cut_weight;
@@ -112,8 +127,10 @@ ReferenceImage Reference::converge(const std::function<void(int n)>& progress) {
     image.steps.push_back(rmse(picture(n / 2).color, now.color, stage_.scene()));
     image.n = n;
     image.converged = image.steps.back() < image.bound;
-    if (image.converged) break;
+    image.too_dear = !image.converged && n < 16 && spent_ + 4 * now.steps > kReferenceSteps;
+    if (image.converged || image.too_dear) break;
   }
+  image.unsent_bound = unsent_bound(stage_.scene(), image.cut_weight);
   image.remaining = remaining_error(image.steps);
   return image;
 }
@@ -124,6 +141,26 @@ double remaining_error(const std::vector<double>& steps) {
   if (last == 0) return 0;
   const double q = steps.size() > 1 ? last / steps[steps.size() - 2] : 0.5;
   return q < 1 ? last * q / (1 - q) : std::numeric_limits<double>::infinity();
+}
+
+double unsent_bound(const Scene& scene, double cut_weight) {
+  if (cut_weight == 0) return 0;
+  double brightest = glm::compMax(scene.background);
+  for (const Material& material : scene.materials) {
+    glm::dvec3 local = material.ambient * scene.ambient;
+    for (const Light& light : scene.lights) {
+      if (!light.directional && light.attenuation.q0 == 0) return std::numeric_limits<double>::infinity();
+      const double at_most = light.directional ? 1 : 1 / light.attenuation.q0;
+      local += at_most * light.intensity * (material.diffuse + material.specular);
+    }
+    local *= material.local;
+    for (int c = 0; c < 3; ++c) {
+      const double given_on = material.reflect[c] + material.refract[c];
+      if (given_on > 1 || (given_on == 1 && local[c] > 0)) return std::numeric_limits<double>::infinity();
+      if (given_on < 1) brightest = std::max(brightest, local[c] / (1 - given_on));
+    }
+  }
+  return cut_weight * brightest;
 }
 
 }  // namespace sidelight

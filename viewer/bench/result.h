@@ -35,7 +35,8 @@ struct BenchPoint {
   std::size_t scene = 0;          // index into BenchResult::scenes
   std::vector<KnobValue> config;  // every knob, in the table's order
   std::string varied;     // the knobs by which it differs from its renderer's default; empty for that itself
-  bool finished = false;  // false: the sweep was interrupted before it; the rest is then not filled
+  std::string left_out;   // why it is not part of the sweep, in words; empty: it is
+  bool finished = false;  // false: left out, or the sweep was interrupted before it; the rest is then not filled
   std::uint64_t mismatches = 0;       // samples whose surface is not the exact one
   std::vector<std::string> failures;  // gates it fails, in words; empty: it may stand on the front
   bool on_front = false;
@@ -45,7 +46,8 @@ struct BenchPoint {
   std::size_t runs = 0;                              // fewer than asked for where the sweep was interrupted
   std::uint64_t rays = 0, fragments = 0, tests = 0;  // of one frame, all kinds of rays together
   double tests_per_ray = 0, nodes_per_ray = 0;
-  double peak_memory_mb = 0;  // greatest resident size during a frame, with all that the bench itself holds
+  // What the process came to hold more than before, at most: while preparing the scene, and during a frame.
+  double build_memory_mb = 0, frame_memory_mb = 0;
 
   PictureError error;  // against the reference image
   // By kind, indexed by ErrorKind: empty where it cannot be told, as the sampling error of the reference's own samples.
@@ -59,11 +61,13 @@ struct BenchPoint {
 struct ReferenceImage {
   int n = 0;       // n x n samples a pixel; 0: the sweep was interrupted before it was finished
   int depth = 0;   // rays along a path, the eye ray included
-  double cut = 0;  // the least weight of a ray that is sent: the scene's, where rays multiply without end
-  double cut_weight = 0;      // mean weight of the rays that even this depth did not send
+  double cut = 0;  // the least weight of a ray that is sent: above 0 where rays multiply without end
+  double cut_weight = 0;      // mean weight of the rays that were not sent even so
+  double unsent_bound = 0;    // the most that these can take from the mean of a channel; may be infinite
   std::vector<double> steps;  // RMSE between n = 1 and 2, 2 and 4, ...
   double bound = 0;           // it stopped when a step fell below this ...
-  bool converged = false;     // ... or because n had reached 16
+  bool converged = false;     // ... or because n had reached 16 ...
+  bool too_dear = false;      // ... or because the next n would have exceeded the steps that it may take
   double remaining = 0;       // estimate of its own RMSE, from the last two steps
   // RMSE between its picture of one sample a pixel and raytrace-reference's, where that is affordable.
   std::optional<double> against_brute_force;

@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/bench/stage.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "common/scene/tessellate.h"
 
 namespace sidelight {
 
+double steps_an_eye_ray(const RenderStats& stats) {
+  if (stats.rays.primary == 0) return 0;
+  return static_cast<double>(stats.rays.total() + stats.signs.nodes + stats.signs.tests) /
+         static_cast<double>(stats.rays.primary);
+}
+
 Stage::Stage(Scene scene, std::atomic<bool>* cancel) : scene_(std::move(scene)), cancel_(cancel) {}
+
+Camera Stage::trial_camera() const {
+  constexpr int kWidth = 80;
+  const int smaller = (scene_.width + kWidth - 1) / kWidth;
+  return make_camera(scene_.camera, scene_.width / smaller, std::max(scene_.height / smaller, 1),
+                     std::max(kWidth / scene_.width, 1));
+}
 
 Model Stage::model_of(const Setting& setting) const {
   if (setting.raster) return {setting.faults.tessellate, 1, 0, true};
@@ -33,7 +47,7 @@ const raytrace::Prepared& Stage::prepared_for(const Model& model) {
   return *it.for_raytrace;
 }
 
-Frame Stage::render(const Setting& setting, bool keep_samples) {
+Frame Stage::render(const Setting& setting, const Camera& camera, bool keep_samples) {
   RenderOptions options;
   options.threads = setting.threads;
   options.isa = setting.isa;
@@ -43,10 +57,15 @@ Frame Stage::render(const Setting& setting, bool keep_samples) {
   options.keep_samples = keep_samples;
   options.cancel = cancel_;
   const Model model = model_of(setting);
-  if (!setting.raster) return raytrace::render(prepared_for(model), camera(setting.n), options);
+  if (!setting.raster) return raytrace::render(prepared_for(model), camera, options);
   Form& it = form(model.tessellate, false);  // the z-buffer has no use for the switches
   if (!it.for_raster) it.for_raster = raster::prepare(it.scene);
-  return raster::render(*it.for_raster, camera(setting.n), options);
+  return raster::render(*it.for_raster, camera, options);
+}
+
+double Stage::trial_steps(const Setting& setting) {
+  if (setting.raster) return 0;
+  return steps_an_eye_ray(render(setting, trial_camera(), false).stats) * setting.n * setting.n;
 }
 
 void Stage::build_again(const Setting& setting) {
@@ -57,9 +76,11 @@ void Stage::build_again(const Setting& setting) {
     raytrace::prepare(scene, setting.threads);
 }
 
-Frame Stage::render_in_double(const Model& model, const Camera& camera) {
+Frame Stage::render_in_double(const Model& model, const Camera& camera,
+                              std::function<void(double done)> progress) {
   RenderOptions options;
   options.cancel = cancel_;
+  options.progress = std::move(progress);
   return raytrace::render_in_double(prepared_for(model), camera, options);
 }
 

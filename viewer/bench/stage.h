@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -22,6 +23,10 @@ struct Model {
   auto operator<=>(const Model&) const = default;
 };
 
+// The work behind a picture, the same on any machine: rays sent, nodes of the hierarchy that they entered and primitives
+// tried on them. Of one eye ray: that times the samples of a pixel are the steps of a pixel. A z-buffer sends none.
+double steps_an_eye_ray(const RenderStats& stats);
+
 class Stage {
  public:
   // Rendering throws Interrupted when `cancel`, which may be null, is raised.
@@ -29,19 +34,27 @@ class Stage {
 
   const Scene& scene() const { return scene_; }
   Camera camera(int n) const { return make_camera(scene_.camera, scene_.width, scene_.height, n); }
+  // The same view with about 80 samples in a row: on fewer pixels where there are many, and with more samples where there
+  // are few. To try out what a picture will cost.
+  Camera trial_camera() const;
   Model model_of(const Setting& setting) const;
   // The scene in the setting's form: its primitives have other numbers where spheres are tessellated.
   const Scene& scene_of(const Setting& setting) { return form(setting.faults.tessellate, false).scene; }
 
   // The setting's picture: its colours, and the primitive and depth of every sample if they are to be kept.
-  Frame render(const Setting& setting, bool keep_samples);
+  Frame render(const Setting& setting, bool keep_samples) {
+    return render(setting, camera(setting.n), keep_samples);
+  }
+  // Of a pixel of that picture, tried out. 0 for the z-buffer.
+  double trial_steps(const Setting& setting);
   // What a renderer does once a scene. Settings with the same key share it.
   using BuildKey = std::tuple<bool, std::optional<int>>;  // raster, tessellate
   static BuildKey build_key(const Setting& setting) { return {setting.raster, setting.faults.tessellate}; }
   void build_again(const Setting& setting);  // for its time only; what is kept stays
 
-  // The ray tracer's picture of the model with light in double.
-  Frame render_in_double(const Model& model, const Camera& camera);
+  // The ray tracer's picture of the model with light in double; `progress`, which may be empty, hears how far it is.
+  Frame render_in_double(const Model& model, const Camera& camera,
+                         std::function<void(double done)> progress = {});
   // The same by brute force.
   Frame render_reference(const Model& model, const Camera& camera);
 
@@ -51,6 +64,7 @@ class Stage {
     std::shared_ptr<const raster::Prepared> for_raster;
     std::shared_ptr<const raytrace::Prepared> for_raytrace;
   };
+  Frame render(const Setting& setting, const Camera& camera, bool keep_samples);
   Form& form(std::optional<int> tessellate, bool local);
   const raytrace::Prepared& prepared_for(const Model& model);
 

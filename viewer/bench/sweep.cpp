@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
+#include <numeric>
 
 #include "common/clock.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/scene/toml.h"
 #include "viewer/bench/front.h"
+#include "viewer/bench/hard_cases.h"
 #include "viewer/bench/judge_picture.h"
 
 namespace sidelight {
@@ -32,12 +35,25 @@ struct Times {
   }
 };
 
+// What the process comes to hold more than before while it works, at most. The reset makes the peak what it holds now.
+template <class Work>
+double memory_of(const Work& work) {
+  reset_peak_memory();
+  const double before = peak_memory_mb();
+  work();
+  return peak_memory_mb() - before;
+}
+
 // The work on one scene, step by step; what it finds out goes into the result at once, so that none is lost when it is
 // interrupted.
 class SceneSweep {
  public:
-  SceneSweep(const SweepPlan& plan, BenchResult& result, std::size_t index, Scene scene)
+  // `hard_failures`: of each configuration.
+  SceneSweep(const SweepPlan& plan, const std::vector<std::string>& hard_failures, BenchResult& result,
+             std::size_t index, Scene scene)
       : plan_(plan),
+        hard_failures_(hard_failures),
+        index_(index),
         scene_(result.scenes[index]),
         points_(result.points.data() + index * plan.configs.size()),
         stage_(std::move(scene), plan.cancel),
@@ -46,76 +62,131 @@ class SceneSweep {
   }
 
   void run() {
+    choose();
     make_reference();
     measure_errors();
     if (plan_.timed) measure_times();
   }
 
  private:
-  void tell(const std::string& what, std::size_t done, std::size_t all) const {
+  // Tries out what a frame of each configuration takes, and leaves out the dearest.
+  void choose() {
+    for (std::size_t c = 0; c < settings_.size(); ++c) {
+      steps_.push_back(stage_.trial_steps(settings_[c]));
+      chosen_.push_back(c);
+    }
+    const auto cheaper = [&](std::size_t a, std::size_t b) { return steps_[a] < steps_[b]; };
+    double round = std::accumulate(steps_.begin(), steps_.end(), 0.0);
+    while (plan_.limited && round > kRoundSteps) {
+      std::vector<std::size_t> varied = chosen_;
+      std::erase_if(varied, [&](std::size_t c) { return points_[c].varied.empty() || steps_[c] == 0; });
+      if (varied.empty()) break;
+      const std::size_t dearest = *std::max_element(varied.begin(), varied.end(), cheaper);
+      points_[dearest].left_out = fmt::format(
+          "too slow for this sweep: a frame takes {:.0f} steps a pixel, of {:.0f} for all configurations",
+          steps_[dearest], kRoundSteps);
+      std::erase(chosen_, dearest);
+      round -= steps_[dearest];
+    }
+    reference_work_ = std::min(kReferenceSteps, 21 * steps_.front());
+    work_ = reference_work_;
+    for (const std::size_t c : chosen_) work_ += (2 + (plan_.timed ? plan_.runs : 0)) * work_of(c);
+  }
+
+  // For the progress: a frame of the z-buffer, which has no steps, counts as many as the simplest of the ray tracer.
+  double work_of(std::size_t c) const {
+    constexpr double kLeast = 20;
+    return std::max(steps_[c], kLeast * settings_[c].n * settings_[c].n);
+  }
+  void tell(double work) const {
+    const double part = std::min((done_ + work) / work_, 1.0);
     if (plan_.progress)
-      plan_.progress(fmt::format("{}: {}", printable(scene_.title, 40), what),
-                     static_cast<double>(done) / static_cast<double>(all));
+      plan_.progress((static_cast<double>(index_) + part) / static_cast<double>(plan_.scenes.size()));
+  }
+  void finish(double work) {
+    done_ += work;
+    tell(0);
   }
 
   void make_reference() {
     const double start = wall_ms();
     ReferenceImage image =
-        reference_.converge([&](int n) { tell(fmt::format("reference, {}x{} samples", n, n), 0, 1); });
+        reference_.converge([&](double steps) { tell(std::min(steps, reference_work_)); });
     if (plan_.timed && reference_.made_any()) image.ms = wall_ms() - start;
     image.picture = to_image8(reference_.picture(image.n).color, scene_.width, scene_.height);
     scene_.reference = std::move(image);
+    if (reference_.made_any())
+      finish(reference_work_);
+    else
+      work_ -= reference_work_;  // it was there already: no measure of what else takes how long
   }
 
   void measure_errors() {
     PictureJudge judge(stage_, reference_, scene_.reference.n);
-    for (std::size_t c = 0; c < settings_.size(); ++c) {
-      tell("errors", c, settings_.size());
+    for (const std::size_t c : chosen_) {
       BenchPoint found = points_[c];
       judge.judge(settings_[c], found);
+      if (!hard_failures_[c].empty()) found.failures.push_back(hard_failures_[c]);
       points_[c] = std::move(found);
       points_[c].finished = !plan_.timed;
+      finish(2 * work_of(c));  // itself, and once more in double
     }
   }
 
   void measure_times() {
-    std::map<Stage::BuildKey, Times> builds;
+    std::map<Stage::BuildKey, Build> builds;
     std::vector<Times> frames(settings_.size());
-    const std::size_t all = static_cast<std::size_t>(plan_.runs) * settings_.size();
     for (int run = 0; run < plan_.runs; ++run) {
       build_round(builds);
-      for (std::size_t c = 0; c < settings_.size(); ++c) {
-        tell("times", static_cast<std::size_t>(run) * settings_.size() + c, all);
-        if (run == 0) reset_peak_memory();
-        frames[c].add([&] { stage_.render(settings_[c], false); });
+      for (const std::size_t c : chosen_) {
         BenchPoint& point = points_[c];
-        if (run == 0) point.peak_memory_mb = peak_memory_mb();
-        const Times& build = builds[Stage::build_key(settings_[c])];
-        point.build_ms = spread_of(build.wall);
-        point.build_cpu_ms = spread_of(build.cpu);
+        const auto frame = [&] { frames[c].add([&] { stage_.render(settings_[c], false); }); };
+        if (run == 0)
+          point.frame_memory_mb = memory_of(frame);
+        else
+          frame();
+        const Build& build = builds[Stage::build_key(settings_[c])];
+        point.build_memory_mb = build.memory_mb;
+        point.build_ms = spread_of(build.times.wall);
+        point.build_cpu_ms = spread_of(build.times.cpu);
         point.frame_ms = spread_of(frames[c].wall);
         point.cpu_ms = spread_of(frames[c].cpu);
         point.runs = frames[c].wall.size();
         point.finished = true;
+        finish(work_of(c));
       }
     }
   }
 
+  struct Build {
+    Times times;
+    double memory_mb = 0;
+  };
   // Each thing to prepare once more. The very first time was while the errors were measured.
-  void build_round(std::map<Stage::BuildKey, Times>& builds) {
-    const std::size_t round = builds.empty() ? 1 : builds.begin()->second.wall.size() + 1;
-    for (const Setting& setting : settings_) {
-      Times& times = builds[Stage::build_key(setting)];
-      if (times.wall.size() < round) times.add([&] { stage_.build_again(setting); });
+  void build_round(std::map<Stage::BuildKey, Build>& builds) {
+    const std::size_t round = builds.empty() ? 1 : builds.begin()->second.times.wall.size() + 1;
+    for (const std::size_t c : chosen_) {
+      Build& build = builds[Stage::build_key(settings_[c])];
+      if (build.times.wall.size() == round) continue;
+      const auto again = [&] { build.times.add([&] { stage_.build_again(settings_[c]); }); };
+      if (round == 1)
+        build.memory_mb = memory_of(again);
+      else
+        again();
     }
   }
 
   const SweepPlan& plan_;
+  const std::vector<std::string>& hard_failures_;
+  std::size_t index_;
   BenchScene& scene_;
   BenchPoint* points_;  // of this scene, one a configuration
   Stage stage_;
   Reference reference_;
   std::vector<Setting> settings_;
+  std::vector<double> steps_;        // a pixel of each, tried out
+  std::vector<std::size_t> chosen_;  // indices of those that are not left out
+  double work_ = 0, done_ = 0, reference_work_ = 0;  // in steps a pixel
 };
 
 Scene load(const SweepPlan& plan, const std::string& path, BenchScene& out) {
@@ -159,8 +230,11 @@ BenchResult run_sweep(const SweepPlan& plan) {
     }
   }
   try {
+    HardCases hard(plan.cancel);
+    std::vector<std::string> hard_failures;
+    for (const Config& config : plan.configs) hard_failures.push_back(hard.failures(setting_of(config)));
     for (std::size_t index = 0; index < scenes.size(); ++index)
-      SceneSweep(plan, result, index, std::move(scenes[index])).run();
+      SceneSweep(plan, hard_failures, result, index, std::move(scenes[index])).run();
   } catch (const Interrupted&) {
     result.interrupted = true;
   }

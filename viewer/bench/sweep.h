@@ -13,19 +13,26 @@
 
 namespace sidelight {
 
+// The default sweep is to take less than two minutes a scene at 640x480 on two cores. So one frame of every configuration
+// may take this many steps a pixel together (stage.h), as tried out on fewer pixels; with seven runs, and 30 ns a step,
+// that is 55 s. The dearest are left out until the rest fits.
+inline constexpr double kRoundSteps = 1500;
+
 struct SweepPlan {
   std::vector<std::string> scenes;  // files
   std::optional<glm::ivec2> size;   // instead of each scene's
   std::vector<Config> configs;
   int runs = 7;  // timed frames of each, after a warm-up
   bool timed = true;
-  PictureCache cache;
+  PictureCache cache{""};
   std::atomic<bool>* cancel = nullptr;             // may be null
   std::function<void(const Scene& scene)> loaded;  // hears of each scene, may refuse it; may be empty
-  std::function<void(const std::string& what, double done)> progress;  // within `what`; may be empty
+  std::function<void(double done)> progress;       // of the whole sweep, from any thread; may be empty
+  bool limited = false;  // leave out, by name, what would exceed kRoundSteps; the renderers' standard settings never
 };
 
-// Loads all scenes (throws InputError for the first bad one, and what `loaded` throws) and fills all but `command` and what judge() (front.h) adds.
+// Loads all scenes (throws InputError for the first bad one, and what `loaded` throws) and fills all but `command` and
+// what judge() (front.h) adds.
 // When `cancel` is raised what is finished stays and `interrupted` is set.
 BenchResult run_sweep(const SweepPlan& plan);
 

@@ -44,43 +44,22 @@ std::string command_of(const BenchFlags& flags) {
   return line;
 }
 
-// A bar for each stage of the work.
-class StagedProgress {
- public:
-  explicit StagedProgress(bool quiet) : quiet_(quiet) {}
-
-  void operator()(const std::string& what, double done) {
-    if (what != what_) {
-      bar_ = std::make_unique<ProgressBar>(what, quiet_);
-      show_ = bar_->callback();
-      what_ = what;
-    }
-    if (show_) show_(done);
-  }
-
- private:
-  bool quiet_;
-  std::string what_;
-  std::unique_ptr<ProgressBar> bar_;
-  std::function<void(double)> show_;
-};
-
 BenchResult sweep(const BenchFlags& flags, const std::vector<Config>& configs) {
   RenderOptions options;
   options.keep_samples = true;
   int finest = 1;
   for (const Config& config : configs) finest = std::max(finest, setting_of(config).n);
 
-  StagedProgress progress(flags.job.quiet);
-  SweepPlan plan{flags.scenes,
-                 {},
-                 configs,
-                 flags.runs,
-                 !flags.job.no_times,
-                 PictureCache(usual_cache_folder()),
-                 &interrupt_flag(),
-                 {},
-                 std::ref(progress)};
+  ProgressBar progress("bench", flags.job.quiet);
+  SweepPlan plan;
+  plan.scenes = flags.scenes;
+  plan.configs = configs;
+  plan.runs = flags.runs;
+  plan.timed = !flags.job.no_times;
+  plan.limited = flags.set.empty() && (flags.sweep.empty() || flags.sweep == "default");
+  plan.cache = PictureCache(program_hash().empty() ? "" : usual_cache_folder());
+  plan.cancel = &interrupt_flag();
+  plan.progress = progress.callback();
   if (!flags.job.size.empty()) plan.size = parse_size(flags.job.size, "-r");
   plan.loaded = [&](const Scene& scene) {
     check_memory(scene, finest, options);
@@ -139,6 +118,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
                     knob.moves ? kErrorKindNames[static_cast<std::size_t>(*knob.moves)] : "no", knob.wanted);
   verb->footer(
       fmt::format("Knobs, the kind of error each moves, and its values:\n{}"
+                  "The default sweep leaves out, by name, the slowest settings of a scene that would take it beyond\n"
+                  "two minutes at 640x480 on two cores; --sweep and --set leave out none.\n"
                   "Ctrl-C ends it with what is finished. Reference images are kept in ~/.cache/sidelight.\n"
                   "Examples:\n"
                   "  sidelight bench scenes/06-shadows.toml -o out/bench -r 64x48\n"

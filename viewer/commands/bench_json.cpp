@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/commands/bench_json.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
@@ -59,9 +60,11 @@ Json reference_json(const BenchScene& scene, bool timed) {
             {"depth", image.depth},
             {"cut", image.cut},
             {"cut_weight", image.cut_weight},
+            {"unsent_bound", std::isfinite(image.unsent_bound) ? Json(image.unsent_bound) : Json(nullptr)},
             {"rmse_steps", image.steps},
             {"bound", image.bound},
             {"converged", image.converged},
+            {"too_dear", image.too_dear},
             {"remaining", image.remaining},
             {"against_brute_force", optional_json(image.against_brute_force)}};
   if (timed) json["ms"] = image.ms;
@@ -72,6 +75,7 @@ Json point_json(const BenchResult& result, const BenchPoint& point) {
   Json json{{"scene", printable(result.scenes[point.scene].path, 1000)},
             {"config", config_json(point)},
             {"varied", point.varied},
+            {"left_out", point.left_out.empty() ? Json(nullptr) : Json(point.left_out)},
             {"finished", point.finished}};
   if (!point.finished) return json;
   json["valid"] = point.failures.empty();
@@ -82,7 +86,7 @@ Json point_json(const BenchResult& result, const BenchPoint& point) {
     json["time_ms"] = {{"build", spread_json(point.build_ms)}, {"frame", spread_json(point.frame_ms)}};
     json["cpu_ms"] = {{"build", spread_json(point.build_cpu_ms)}, {"frame", spread_json(point.cpu_ms)}};
     json["runs"] = point.runs;
-    json["peak_memory_mb"] = point.peak_memory_mb;
+    json["memory_mb"] = {{"build", point.build_memory_mb}, {"frame", point.frame_memory_mb}};
   }
   json["rays"] = point.rays;
   json["fragments"] = point.fragments;

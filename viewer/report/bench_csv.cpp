@@ -54,6 +54,7 @@ Record record(const BenchResult& result, const BenchPoint& point, const std::vec
   Record out;
   out.add("scene", result.scenes[point.scene].path);
   for (const KnobValue& each : knobs) out.add(each.knob, knob_value(point, each.knob));
+  out.add("left_out", point.left_out);
   out.add("finished", int{point.finished});
 
   out.known = point.finished;
@@ -67,7 +68,8 @@ Record record(const BenchResult& result, const BenchPoint& point, const std::vec
   out.add("frame_ms", point.frame_ms);
   out.add("frame_cpu_ms", point.cpu_ms);
   out.add("runs", point.runs);
-  out.add("peak_memory_mb", point.peak_memory_mb);
+  out.add("build_memory_mb", point.build_memory_mb);
+  out.add("frame_memory_mb", point.frame_memory_mb);
 
   out.known = point.finished;
   out.add("rays", point.rays);

@@ -51,10 +51,11 @@ Html cost_table(const BenchResult& result, const std::vector<std::size_t>& order
   Html words;
   if (result.timed) {
     table.columns.insert(table.columns.end(),
-                         {"#", "frame ms", "as fast as", "processor ms", "build ms", "runs", "memory MB"});
+                         {"#", "frame ms", "as fast as", "processor ms", "build ms", "runs", "MB a frame", "MB to build"});
     words = html(
         R"(<p>Times are medians (least-greatest), fastest first. Two configurations differ in time only where their ranges do
-not overlap: those whose numbers stand under “as fast as” do not differ from this one.</p>
+not overlap: those whose numbers stand under “as fast as” do not differ from this one. MB: what the program came to hold
+more than before, at most, during a frame and while the scene was prepared.</p>
 )");
   }
   table.columns.insert(table.columns.end(), {"rays", "fragments", "tests", "tests a ray", "nodes a ray"});
@@ -65,7 +66,8 @@ not overlap: those whose numbers stand under “as fast as” do not differ from
       row.insert(row.end(), {html("{}", k + 1), html("{}", spread_words(point.frame_ms)),
                              html("{}", same_time_as(result, order, k)),
                              html("{}", spread_words(point.cpu_ms)), html("{}", spread_words(point.build_ms)),
-                             html("{}", point.runs), html("{:.0f}", point.peak_memory_mb)});
+                             html("{}", point.runs), html("{:.1f}", point.frame_memory_mb),
+                             html("{:.1f}", point.build_memory_mb)});
     row.insert(row.end(), {number(point.rays), number(point.fragments), number(point.tests),
                            html("{:.1f}", point.tests_per_ray), html("{:.1f}", point.nodes_per_ray)});
     table.rows.push_back(row);
@@ -83,8 +85,13 @@ Html numbers_html(const BenchResult& result, std::size_t scene) {
   else
     for (const Html& table : {error_table(result, order), cost_table(result, order)}) out += table;
   Html names;
-  for (const std::size_t i : unfinished_points(result, scene))
-    names += html("{}{}", names.empty() ? "" : ", ", config_name(result.points[i]));
+  for (const std::size_t i : unfinished_points(result, scene)) {
+    const BenchPoint& point = result.points[i];
+    if (point.left_out.empty())
+      names += html("{}{}", names.empty() ? "" : ", ", config_name(point));
+    else
+      out += html("<p class=\"verdict\"><b>Left out:</b> {}, {}.</p>\n", config_name(point), point.left_out);
+  }
   if (!names.empty()) out += html("<p class=\"verdict bad\"><b>Not finished:</b> {}.</p>\n", names);
   return out;
 }

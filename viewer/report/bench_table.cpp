@@ -91,8 +91,12 @@ std::string scene_text(const BenchResult& result, std::size_t index) {
   const BenchScene& scene = result.scenes[index];
   std::string out = fmt::format("{} ({}x{})\n", printable(scene_name(scene)), scene.width, scene.height);
   out += "\n" + points_table(result, index);
-  for (const std::size_t i : unfinished_points(result, index))
-    out += fmt::format("  unfinished: {}\n", printable(config_name(result.points[i]), kLongestName));
+  for (const std::size_t i : unfinished_points(result, index)) {
+    const BenchPoint& point = result.points[i];
+    const std::string name = printable(config_name(point), kLongestName);
+    out += point.left_out.empty() ? fmt::format("  unfinished: {}\n", name)
+                                  : fmt::format("  left out: {}, {}\n", name, printable(point.left_out));
+  }
   if (result.timed)
     out +=
         "\n" + paragraph(

@@ -159,6 +159,7 @@ std::string reference_words(const ReferenceImage& reference) {
   if (reference.n == 0) return "The sweep was interrupted before the reference image was finished.";
   std::string out = fmt::format("{0}x{0} samples a pixel, all light in double", reference.n);
   if (reference.depth > 0) out += fmt::format(", {} rays along a path", reference.depth);
+  if (reference.cut > 0) out += fmt::format(", none below a weight of {:g}", reference.cut);
   out += ". ";
   if (!reference.steps.empty()) {
     out += "RMSE from one number of samples to the next:";
@@ -171,12 +172,18 @@ std::string reference_words(const ReferenceImage& reference) {
   }
   out += reference.converged
              ? fmt::format("The last is below the bound of {}. ", error_words(reference.bound))
-             : fmt::format("The bound of {} was not reached. ", error_words(reference.bound));
+             : fmt::format("The bound of {} was not reached{}. ", error_words(reference.bound),
+                           reference.too_dear ? ", and more samples would have taken too long" : "");
   out += std::isfinite(reference.remaining)
              ? fmt::format("Its own remaining error is estimated as {}. ", error_words(reference.remaining))
              : "Its own remaining error cannot be estimated, since the steps do not fall. ";
   if (reference.cut_weight > 0)
-    out += fmt::format("Rays not sent even so have a mean weight of {}. ", error_words(reference.cut_weight));
+    out += fmt::format(
+        "Rays not sent even so have a mean weight of {}, {}. ", error_words(reference.cut_weight),
+        std::isfinite(reference.unsent_bound)
+            ? fmt::format("so that channels are too dark by {} in the mean at most",
+                          error_words(reference.unsent_bound))
+            : "which bounds nothing, since light here has no bound");
   out += reference.against_brute_force
              ? fmt::format(
                    "Its picture with one sample a pixel is {} (RMSE) away from that of raytrace-reference, "
