@@ -23,7 +23,7 @@ struct SampleBox {
 struct alignas(16) ScreenVertex {
   std::int32_t x = 0, y = 0;  // from the lattice's centre, in units of 2^-bits samples; y down
   float w = 0;                // 1/t of the point on its ray: 2nH / (a.f)
-  std::uint32_t state = 0;  // ScreenSpace's flags; 0 where x, y and w hold and the point may be on the screen
+  std::uint32_t state = 0;    // ScreenSpace's flags; 0 where x, y and w hold and the point may be on the screen
 };
 
 struct ScreenSpace {

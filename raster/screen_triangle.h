@@ -16,8 +16,7 @@ namespace sidelight::raster {
 // Every w kept by a tile is within kDepthError of the 1/t of its sample's primitive, t as triangle_depth() gives it:
 // 2^-17 from the float filter, 2^-18 from triangle_depth itself (its contract), 2^-19 for all else. Two such w that
 // differ by more than the factor kSurely are in the order of their depths.
-inline constexpr float kSurely =
-    1 + 0x1p-14f;  // > ((1 + kDepthError) / (1 - kDepthError))², kDepthError = 2^-16
+inline constexpr float kSurely = 1 + 0x1p-14f;   // > ((1 + kDepthError) / (1 - kDepthError))², kDepthError = 2^-16
 inline constexpr float kFilterError = 0x1p-17f;
 
 // Coordinates are exact in float up to this extent in units.
