@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "viewer/window/layout.h"
+#include "viewer/window/paint.h"
 
 namespace sidelight {
 namespace {
@@ -132,8 +133,8 @@ void Canvas::load_fonts() {
   atlas.ClearTexData();
 }
 
-ImTextureID Canvas::add_picture(const Image8& image) {
-  return texture_id(pictures_.emplace_back(make_picture_texture(gl_, image)));
+ImTextureID Canvas::add_picture(const Image8& image, bool may_shrink) {
+  return texture_id(pictures_.emplace_back(make_picture_texture(gl_, image, may_shrink)));
 }
 
 void Canvas::set_pointer(glm::dvec2 position, bool left_down, double wheel) {
@@ -171,7 +172,7 @@ void Canvas::draw(int width, int height, const std::function<void()>& contents) 
     throw;
   }
   ImGui::Render();
-  painter_.paint(*ImGui::GetDrawData());
+  painter_.paint(*ImGui::GetDrawData(), kPage);
   wants_pointer_ = ImGui::GetIO().WantCaptureMouse;
 }
 

@@ -45,9 +45,9 @@ class Canvas {
   double scale() const { return scale_; }
   const Fonts& fonts() const { return fonts_; }
 
-  // Uploads a picture; the handle is good until clear_pictures, or as long as the canvas. Throws UsageError if it is
-  // too large for OpenGL.
-  ImTextureID add_picture(const Image8& image);
+  // Uploads a picture; the handle is good until clear_pictures, or as long as the canvas. Drawn smaller than it is, it is
+  // smoothed only if it `may_shrink`. Throws UsageError if it is too large for OpenGL.
+  ImTextureID add_picture(const Image8& image, bool may_shrink = true);
   // Drops all pictures; not within draw.
   void clear_pictures() { pictures_.clear(); }
 

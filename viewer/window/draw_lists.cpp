@@ -63,15 +63,16 @@ DrawListPainter::DrawListPainter(const Gl& gl)
   describe_attribute(gl, 2, 4, GL_UNSIGNED_BYTE, true, offsetof(ImDrawVert, col));
 }
 
-void DrawListPainter::paint(const ImDrawData& data) const {
+void DrawListPainter::paint(const ImDrawData& data, ImU32 page) const {
   const int width = static_cast<int>(data.DisplaySize.x), height = static_cast<int>(data.DisplaySize.y);
   gl_.Viewport(0, 0, width, height);
   // Mesa 22.3 takes notice of a window's new size at the first drawing after glViewport, too late for the scissor of
   // that same drawing: without this, a full-window rectangle ended at the old height.
   gl_.Disable(GL_SCISSOR_TEST);
+  const ImVec4 color = ImGui::ColorConvertU32ToFloat4(page);
+  gl_.ClearColor(color.x, color.y, color.z, 1);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
   gl_.Enable(GL_SCISSOR_TEST);
-  gl_.Enable(GL_BLEND);
   gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl_.UseProgram(program_.name());
   gl_.Uniform2f(size_uniform_, data.DisplaySize.x, data.DisplaySize.y);
@@ -91,6 +92,9 @@ void DrawListPainter::paint_list(const ImDrawList& list, int width, int height) 
     if (x0 >= x1 || y0 >= y1) continue;
     gl_.Scissor(x0, height - y1, x1 - x0, y1 - y0);  // OpenGL's y goes up
 
+    // Pictures are opaque: llvmpipe spends half its time on blending them.
+    const bool picture = command.GetTexID() != ImGui::GetIO().Fonts->TexID;
+    picture ? gl_.Disable(GL_BLEND) : gl_.Enable(GL_BLEND);
     gl_.BindTexture(GL_TEXTURE_2D, static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
     constexpr GLenum index_type = sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT;
     const auto first_byte = static_cast<std::uintptr_t>(command.IdxOffset) * sizeof(ImDrawIdx);

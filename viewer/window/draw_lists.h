@@ -20,9 +20,9 @@ class DrawListPainter {
  public:
   explicit DrawListPainter(const Gl& gl);  // gl must outlive the painter
 
-  // Paints over all of the current framebuffer, whose size is data.DisplaySize. User callbacks are not
-  // supported.
-  void paint(const ImDrawData& data) const;
+  // Paints over all of the current framebuffer, whose size is data.DisplaySize, on `page`, an opaque colour. User
+  // callbacks are not supported.
+  void paint(const ImDrawData& data, ImU32 page) const;
 
  private:
   void paint_list(const ImDrawList& list, int width, int height) const;

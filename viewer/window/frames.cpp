@@ -34,15 +34,22 @@ bool FrameContents::inspect(const WindowState& state) {
 bool Frames::take_pictures() {
   const double start = wall_ms();
   const bool changed = contents_.update(session_);
-  const double prepared = wall_ms();
-  next_.prepare += prepared - start;
-  if (!changed) return false;
+  if (changed) uploaded_ = Uploaded::nothing;
+  next_.prepare += wall_ms() - start;
+  return changed;
+}
+
+// Smaller copies of each picture take as long as all the rest: they are made once a picture is shown smaller than it is.
+void Frames::upload() {
+  const Uploaded wanted = session_.state().view.zoom < 1 ? Uploaded::with_smaller_copies : Uploaded::as_they_are;
+  if (uploaded_ >= wanted) return;
+  const double start = wall_ms();
   canvas_.clear_pictures();
   textures_.clear();
   for (const ShownPanel& each : contents_.shown().panels)
-    textures_.push_back(canvas_.add_picture(each.image));
-  next_.upload += wall_ms() - prepared;
-  return true;
+    textures_.push_back(canvas_.add_picture(each.image, wanted == Uploaded::with_smaller_copies));
+  uploaded_ = wanted;
+  next_.upload += wall_ms() - start;
 }
 
 void Frames::press(const std::string& key, const Rect& panel) {
@@ -51,11 +58,12 @@ void Frames::press(const std::string& key, const Rect& panel) {
 }
 
 bool Frames::draw(glm::ivec2 size, double content_scale) {
-  const double start = wall_ms();
   const WindowState& state = session_.state();
   canvas_.set_scale(content_scale * state.text_scale);
   layout_ = window_layout(state, size, canvas_.scale());
   session_.fit_panel(layout_.panels.left);
+  upload();
+  const double start = wall_ms();
   std::vector<Command> commands;
   canvas_.draw(size.x, size.y, [&] {
     commands = draw_window(canvas_,

@@ -61,9 +61,13 @@ class Frames {
   const FrameTime& time() const { return last_; }
 
  private:
+  enum class Uploaded { nothing, as_they_are, with_smaller_copies };
+  void upload();
+
   Canvas& canvas_;
   Session& session_;
   FrameContents contents_;
+  Uploaded uploaded_ = Uploaded::nothing;
   std::vector<void*> textures_;
   WindowLayout layout_;
   FrameTime next_, last_;

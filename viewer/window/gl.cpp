@@ -82,11 +82,12 @@ GlObject make_program(const Gl& gl, const char* vertex_source, const char* fragm
   return program;
 }
 
-GlObject make_picture_texture(const Gl& gl, const Image8& image) {
+GlObject make_picture_texture(const Gl& gl, const Image8& image, bool may_shrink) {
   GlObject texture = make_texture(gl, image.width, image.height, GL_RGB, image.rgb.data());
-  gl.GenerateMipmap(GL_TEXTURE_2D);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, may_shrink ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  if (!may_shrink) return texture;
+  gl.GenerateMipmap(GL_TEXTURE_2D);
   // Zoom 1 is the border between the two filters: this puts it, with room for rounding, on the exact side.
   gl.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, -1.0f / 32);
   return texture;

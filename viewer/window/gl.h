@@ -26,6 +26,7 @@ using GlLoader = GlFunction (*)(const char* name);  // glfwGetProcAddress or OSM
   F(PFNGLBLENDFUNCPROC, BlendFunc)                             \
   F(PFNGLBUFFERDATAPROC, BufferData)                           \
   F(PFNGLCLEARPROC, Clear)                                     \
+  F(PFNGLCLEARCOLORPROC, ClearColor)                           \
   F(PFNGLCOMPILESHADERPROC, CompileShader)                     \
   F(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
   F(PFNGLCREATESHADERPROC, CreateShader)                       \
@@ -99,8 +100,8 @@ GlObject make_vertex_array(const Gl& gl);
 GlObject make_program(const Gl& gl, const char* vertex_source, const char* fragment_source);
 
 // A picture as a texture: its own bytes, unfiltered, wherever it is drawn at its size or larger; smoothed
-// with mipmaps where it is drawn smaller. Throws UsageError if a side is longer than the driver takes.
-GlObject make_picture_texture(const Gl& gl, const Image8& image);
+// with mipmaps, if it `may_shrink`, where it is drawn smaller. Throws UsageError if a side is longer than the driver takes.
+GlObject make_picture_texture(const Gl& gl, const Image8& image, bool may_shrink);
 
 // RGBA, 8 bits, smooth: for the font. `rgba` has 4 * width * height bytes.
 GlObject make_font_texture(const Gl& gl, int width, int height, const unsigned char* rgba);

@@ -33,7 +33,6 @@ LayoutOptions layout_options(const Labels& labels, bool footer, double scale) {
 void draw_comparison(const Canvas& canvas, const ShownPictures& pictures, const Labels& labels,
                      const Layout& layout, const View& view) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.AddRectFilled({0, 0}, ImGui::GetIO().DisplaySize, kPage);
   draw_line(list, *canvas.fonts().title, layout.title, kText, labels.title);
 
   const auto draw_side = [&](bool is_left, const Rect& caption, const Rect& times, const Rect& panel) {

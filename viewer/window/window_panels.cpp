@@ -193,7 +193,6 @@ std::vector<Command> draw_window(const Canvas& canvas, const WindowContents& con
                                  const WindowLayout& layout) {
   std::vector<Command> out;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.AddRectFilled({0, 0}, ImGui::GetIO().DisplaySize, kPage);
   draw_line(list, *canvas.fonts().title, layout.panels.title, kText, window_title(contents.state));
   if (!contents.shown.panels.empty()) {
     draw_panels(canvas, list, contents, layout.panels);
