@@ -3,6 +3,7 @@
 // for terminals only. What cannot be written is exit code 7.
 #include <nlohmann/json.hpp>
 
+#include "tests/tier.h"
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
@@ -11,6 +12,7 @@ using namespace sidelight::testing;
 namespace {
 
 const Arguments kSmall{"-r", "16x12"};
+std::string long_render() { return test::tier_value("long_render"); }
 
 // Every verb that needs no display, on a scene, with all its output in files but what the verb is for.
 std::vector<Arguments> every_verb(const std::string& scene) {
@@ -70,14 +72,14 @@ TEST_CASE("streams: standard output is data only, for the verbs that have some")
 
 TEST_CASE("streams: no bar and no colour where there is no terminal") {
   const Workplace here;
-  const Outcome outcome = here.run({"render", "good.toml", "-o", "a.png", "-r", "1000x750", "--spp", "16"});
+  const Outcome outcome = here.run({"render", "good.toml", "-o", "a.png", "-r", long_render(), "--spp", "16"});
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
 }
 
 TEST_CASE("streams: on a terminal a bar that is gone at the end, and none with -q") {
   const Workplace here;
-  const std::string render = "render good.toml -o a.png -r 1000x750 --spp 16 -j 1";
+  const std::string render = "render good.toml -o a.png --spp 16 -j 1 -r " + long_render();
   const Outcome shown = on_terminal(here, render);
   CAPTURE(shown.out);
   REQUIRE(shown.code == 0);
