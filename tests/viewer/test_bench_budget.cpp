@@ -59,7 +59,7 @@ TEST_CASE("budget: a reference image of rays that multiply cuts the weakest, and
   Reference reference(stage, PictureCache(""));
   double told = 0;
   std::mutex mutex;
-  const ReferenceImage image = reference.converge([&](double steps) {
+  const ReferenceImage image = reference.converge(1, [&](double steps) {
     const std::lock_guard lock(mutex);
     told = std::max(told, steps);
   });

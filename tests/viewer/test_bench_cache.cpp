@@ -130,6 +130,19 @@ TEST_CASE("reference: from the cache the same one, made anew where the cache fai
   CHECK(folder.count() == 2 * files);
 }
 
+TEST_CASE(
+    "reference: at least twice as fine as what is measured against it, however soon it would do by itself") {
+  Scene scene = small_scene("dark");
+  scene.lights.clear();  // black on black: one step tells all
+  Stage stage(scene);
+  for (const auto& [finest, n] : {std::pair(1, 2), std::pair(2, 4), std::pair(3, 8), std::pair(16, 32)}) {
+    CAPTURE(finest);
+    const ReferenceImage image = Reference(stage, PictureCache("")).converge(finest);
+    CHECK(image.n == n);
+    CHECK(image.finer);
+  }
+}
+
 TEST_CASE("reference: what remains is the rest of a geometric series") {
   CHECK(remaining_error({0.25}) == 0.25);  // after one step, halves
   CHECK(remaining_error({0.3, 0.1}) == doctest::Approx(0.05).epsilon(1e-12));

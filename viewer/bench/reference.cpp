@@ -26,8 +26,8 @@ double rmse(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, co
 
 std::string Reference::key(int n) const {
   const Scene& scene = stage_.scene();
-  return fmt::format("reference image, program {}, scene {}, {}x{}, {}x{} samples", program_hash(), scene.hash,
-                     scene.width, scene.height, n, n);
+  return fmt::format("reference image, program {}, scene {}, {}x{}, {}x{} samples", program_hash(),
+                     scene.hash, scene.width, scene.height, n, n);
 }
 
 Reference::Trial Reference::trial(int depth, double cut) {
@@ -109,12 +109,13 @@ const Reference::Picture& Reference::picture(int n) {
   return pictures_.emplace(n, std::move(made)).first->second;
 }
 
-ReferenceImage Reference::converge(std::function<void(double steps)> progress) {
+ReferenceImage Reference::converge(int finest, std::function<void(double steps)> progress) {
   progress_ = std::move(progress);
   spent_ = 0;
   ReferenceImage image;
   image.bound = kReferenceBound;
-  for (int n = 1; n <= 16; n *= 2) {
+  const int most = std::max(16, 2 * finest);
+  for (int n = 1; n <= most; n *= 2) {
     const Picture& now = picture(n);
     spent_ += now.steps;
     image.depth = now.model.depth;
@@ -127,8 +128,10 @@ ReferenceImage Reference::converge(std::function<void(double steps)> progress) {
     image.steps.push_back(rmse(picture(n / 2).color, now.color, stage_.scene()));
     image.n = n;
     image.converged = image.steps.back() < image.bound;
-    image.too_dear = !image.converged && n < 16 && spent_ + 4 * now.steps > kReferenceSteps;
-    if (image.converged || image.too_dear) break;
+    image.finer = n >= 2 * finest;
+    const bool enough = image.converged && image.finer;
+    image.too_dear = !enough && 2 * n <= most && spent_ + 4 * now.steps > kReferenceSteps;
+    if (enough || image.too_dear) break;
   }
   image.unsent_bound = unsent_bound(stage_.scene(), image.cut_weight);
   image.remaining = remaining_error(image.steps);

@@ -12,9 +12,10 @@
 // scene's own depth and cut whatever they cost, that which leaves out least. What is left out is reported, with what it
 // can amount to.
 //
-// Samples: n x n with n = 1, 2, 4, 8, 16, until the RMSE between two pictures in a row is below kReferenceBound. With q
-// the ratio of the last two such steps, what remains is estimated as the rest of a geometric series, q / (1 - q) of the
-// last; after a single step q = 1/2, which is slow: a box filter over n x n points converges at least as 1/n.
+// Samples: n x n with n = 1, 2, 4, 8, 16, until the RMSE between two pictures in a row is below kReferenceBound and n is
+// at least twice that of whatever is measured against it: against its own samples a picture would seem to have no error.
+// With q the ratio of the last two such steps, what remains is estimated as the rest of a geometric series, q / (1 - q) of
+// the last; after a single step q = 1/2, which is slow: a box filter over n x n points converges at least as 1/n.
 #pragma once
 
 #include <functional>
@@ -44,8 +45,9 @@ class Reference {
   // The full model with n x n samples, from memory, from the cache, or made.
   const Picture& picture(int n);
 
-  // The sequence until it stops: fills all but `ms` and the 8-bit picture. `progress` hears how many steps a pixel are done.
-  ReferenceImage converge(std::function<void(double steps)> progress = {});
+  // The sequence until it stops, for pictures of up to finest x finest samples a pixel: fills all but `ms` and the 8-bit
+  // picture. `progress` hears how many steps a pixel are done.
+  ReferenceImage converge(int finest = 1, std::function<void(double steps)> progress = {});
   // Whether a picture had to be made.
   bool made_any() const { return made_any_; }
 

@@ -110,8 +110,10 @@ class SceneSweep {
 
   void make_reference() {
     const double start = wall_ms();
+    int finest = 1;
+    for (const std::size_t c : chosen_) finest = std::max(finest, settings_[c].n);
     ReferenceImage image =
-        reference_.converge([&](double steps) { tell(std::min(steps, reference_work_)); });
+        reference_.converge(finest, [&](double steps) { tell(std::min(steps, reference_work_)); });
     if (plan_.timed && reference_.made_any()) image.ms = wall_ms() - start;
     image.picture = to_image8(reference_.picture(image.n).color, scene_.width, scene_.height);
     scene_.reference = std::move(image);
@@ -184,8 +186,8 @@ class SceneSweep {
   Stage stage_;
   Reference reference_;
   std::vector<Setting> settings_;
-  std::vector<double> steps_;        // a pixel of each, tried out
-  std::vector<std::size_t> chosen_;  // indices of those that are not left out
+  std::vector<double> steps_;                        // a pixel of each, tried out
+  std::vector<std::size_t> chosen_;                  // indices of those that are not left out
   double work_ = 0, done_ = 0, reference_work_ = 0;  // in steps a pixel
 };
 

@@ -64,6 +64,7 @@ Json reference_json(const BenchScene& scene, bool timed) {
             {"rmse_steps", image.steps},
             {"bound", image.bound},
             {"converged", image.converged},
+            {"finer", image.finer},
             {"too_dear", image.too_dear},
             {"remaining", image.remaining},
             {"against_brute_force", optional_json(image.against_brute_force)}};

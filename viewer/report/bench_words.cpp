@@ -177,13 +177,18 @@ std::string reference_words(const ReferenceImage& reference) {
   out += std::isfinite(reference.remaining)
              ? fmt::format("Its own remaining error is estimated as {}. ", error_words(reference.remaining))
              : "Its own remaining error cannot be estimated, since the steps do not fall. ";
+  if (!reference.finer)
+    out +=
+        "Pictures with more than half as many samples along a pixel's side were measured against too few: "
+        "their "
+        "errors are too small here. ";
   if (reference.cut_weight > 0)
-    out += fmt::format(
-        "Rays not sent even so have a mean weight of {}, {}. ", error_words(reference.cut_weight),
-        std::isfinite(reference.unsent_bound)
-            ? fmt::format("so that channels are too dark by {} in the mean at most",
-                          error_words(reference.unsent_bound))
-            : "which bounds nothing, since light here has no bound");
+    out +=
+        fmt::format("Rays not sent even so have a mean weight of {}, {}. ", error_words(reference.cut_weight),
+                    std::isfinite(reference.unsent_bound)
+                        ? fmt::format("so that channels are too dark by {} in the mean at most",
+                                      error_words(reference.unsent_bound))
+                        : "which bounds nothing, since light here has no bound");
   out += reference.against_brute_force
              ? fmt::format(
                    "Its picture with one sample a pixel is {} (RMSE) away from that of raytrace-reference, "
