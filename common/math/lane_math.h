@@ -4,6 +4,8 @@
 // below half an ulp of the element type, the rest is rounding (bounds measured by tests/math/test_lane_math.cpp).
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <limits>
 
 #include "common/math/lanes.h"
@@ -15,21 +17,54 @@ template <class T>
 struct Series;
 template <>
 struct Series<float> {
-  static constexpr int kExpTerms = 8;        // (ln 2 / 2)^8 / 8! = 5e-9
-  static constexpr int kAtanhTerms = 6;      // 0.1716^12 / 13 = 5e-11 relative
-  static constexpr float kExpLow = -87.0f, kExpHigh = 88.0f;   // results stay normal
+  static constexpr int kExpTerms = 7;                         // (ln 2 / 2)^8 / 8! = 5e-9
+  static constexpr int kAtanhTerms = 4;                       // 0.1716^10 / 11 = 2e-9 relative
+  static constexpr float kExpLow = -87.0f, kExpHigh = 88.0f;  // results stay normal
   static constexpr int kMantissaBits = 23, kBias = 127;
-  static constexpr float kLn2High = 0x1.62e4p-1f, kLn2Low = 0x1.7f7d1cp-20f;   // high part has room for n * high
+  static constexpr float kRound = 0x1.8p23f;  // x + kRound has the nearest whole number in its low bits
+  static constexpr float kLn2High = 0x1.62e4p-1f,
+                         kLn2Low = 0x1.7f7d1cp-20f;  // high part has room for n * high
 };
 template <>
 struct Series<double> {
-  static constexpr int kExpTerms = 14;       // (ln 2 / 2)^14 / 14! = 4e-18
-  static constexpr int kAtanhTerms = 12;     // 0.1716^24 / 25 = 2e-20 relative
+  static constexpr int kExpTerms = 13;   // (ln 2 / 2)^14 / 14! = 4e-18
+  static constexpr int kAtanhTerms = 9;  // 0.1716^20 / 21 = 2e-17 relative
   static constexpr double kExpLow = -708.0, kExpHigh = 709.0;
   static constexpr int kMantissaBits = 52, kBias = 1023;
+  static constexpr double kRound = 0x1.8p52;
   static constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 };
+
+// 1/0!, 1/1!, ... of e^x.
+template <class T>
+constexpr auto exp_series() {
+  std::array<T, Series<T>::kExpTerms + 1> c{};
+  double factorial = 1;
+  for (std::size_t k = 0; k < c.size(); factorial *= static_cast<double>(++k)) c[k] = T(1 / factorial);
+  return c;
+}
+// 2/3, 2/5, ...: 2 atanh(s) = 2 s + s (2/3 s² + 2/5 s⁴ + ...).
+template <class T>
+constexpr auto atanh_series() {
+  std::array<T, Series<T>::kAtanhTerms> c{};
+  for (std::size_t k = 0; k < c.size(); ++k) c[k] = T(2) / T(2 * k + 3);
+  return c;
+}
 }  // namespace detail
+
+// c[0] + c[1] x + c[2] x² + ..., by pairs, pairs of pairs and so on (G. Estrin, "Organization of computer systems: the
+// fixed plus variable structure computer", 1960): a chain of log2(terms) steps, where Horner's is as long as the series.
+template <class F, class C, std::size_t kSize>
+F polynomial(const F& x, const std::array<C, kSize>& c) {
+  if constexpr (kSize == 1) {
+    return F(c[0]);
+  } else {
+    std::array<F, (kSize + 1) / 2> pairs;
+    for (std::size_t i = 0; i < kSize / 2; ++i) pairs[i] = F(c[2 * i]) + F(c[2 * i + 1]) * x;
+    if constexpr (kSize % 2 == 1) pairs[kSize / 2] = F(c[kSize - 1]);
+    return polynomial<F>(x * x, pairs);
+  }
+}
 
 // e^x for x <= kExpHigh; 0 below kExpLow, where results would turn subnormal. Relative error: float 2 ulp, double 2 ulp.
 template <class F>
@@ -39,15 +74,15 @@ F lane_exp(const F& x) {
   // x = n ln 2 + r, |r| <= ln 2 / 2 (and a little)
   const Mask<F> underflow = x < F(S::kExpLow);
   const F safe = select<F>(underflow, F(0), x);
-  const F scaled = safe * F(T(1.442695040888963407));
-  const auto n = to_integer<F>(scaled + select<F>(scaled < F(0), F(T(-0.5)), F(T(0.5))));
-  const F n_real = to_real<F>(n);
-  const F r = (safe - n_real * F(S::kLn2High)) - n_real * F(S::kLn2Low);
-  // e^r = 1 + r (1 + r/2 (1 + r/3 (...)))
-  F sum = F(1);
-  for (int k = S::kExpTerms; k >= 1; --k) sum = F(1) + r * sum * F(T(1) / T(k));
-  const F power = from_bits<F>((n + S::kBias) << S::kMantissaBits);
-  return select<F>(underflow, F(0), sum * power);
+  const F rounded = safe * F(T(1.442695040888963407)) + F(S::kRound);
+  const F n = rounded - F(S::kRound);
+  const F r = (safe - n * F(S::kLn2High)) - n * F(S::kLn2Low);
+  constexpr auto kSeries = detail::exp_series<T>();
+  // 2^n from the low bits of `rounded`
+  using Bits = decltype(to_bits(x));
+  const F power =
+      from_bits<F>((to_bits<F>(rounded) << S::kMantissaBits) + (Bits(S::kBias) << S::kMantissaBits));
+  return select<F>(underflow, F(0), polynomial<F>(r, kSeries) * power);
 }
 
 // log(1 + x) for -1 < x <= 1. Relative error: float 4 ulp, double 4 ulp, for tiny x too.
@@ -62,15 +97,15 @@ F lane_log1p(const F& x) {
   const Bits sqrt_half = to_bits<F>(F(T(0.70710678118654752440)));
   const Bits k = (to_bits<F>(u) - sqrt_half) >> S::kMantissaBits;
   const F m = from_bits<F>(to_bits<F>(u) - (k << S::kMantissaBits));
-  // log m = 2 atanh(s) = 2 s (1 + s²/3 + s⁴/5 + ...), s = (m - 1)/(m + 1), |s| <= 0.1716
-  const F s = (m - F(1)) / (m + F(1));
+  const F down = from_bits<F>((Bits(S::kBias) - k) << S::kMantissaBits);  // 2^-k
+  const F f = (m - F(1)) + lost * down;                                   // (1 + x) / 2^k - 1
+  // log(1 + f) = 2 atanh(s), s = f/(2 + f), |s| <= 0.1716; and 2 s = f - s f, where f is better known than s
+  const F s = f / (F(2) + f);
   const F s2 = s * s;
-  F sum = F(0);
-  for (int i = S::kAtanhTerms; i >= 1; --i) sum = s2 * (sum + F(T(1) / T(2 * i + 1)));
-  const F log_m = F(2) * s + F(2) * s * sum;
+  constexpr auto kSeries = detail::atanh_series<T>();
+  const F log_f = f - s * (f - s2 * polynomial<F>(s2, kSeries));
   const F k_real = to_real<F>(k);
-  // log(u + lost) = log u + lost / u, to first order in a rounding error
-  return (k_real * F(S::kLn2High) + (log_m + (k_real * F(S::kLn2Low) + lost / u)));
+  return k_real * F(S::kLn2High) + (log_f + k_real * F(S::kLn2Low));
 }
 
 }  // namespace sidelight
