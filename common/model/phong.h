@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/math/lane_math.h"
+#include "common/math/lane_ops.h"
 #include "common/math/vec.h"
 
 namespace sidelight {
@@ -24,8 +25,8 @@ namespace sidelight {
 template <class T>
 struct ShadingLight {
   bool directional = false;
-  bool attenuated = true;              // else f(d) = 1
-  std::array<T, 3> high{}, low{};      // point: position; directional: high is the unit vector to the light
+  bool attenuated = true;          // else f(d) = 1
+  std::array<T, 3> high{}, low{};  // point: position; directional: high is the unit vector to the light
   std::array<T, 3> intensity{};
   T q0 = 1, q1 = 0, q2 = 0;
 };
@@ -33,11 +34,11 @@ struct ShadingLight {
 // What the model needs of a visible point.
 template <class F>
 struct ShadingPoint {
-  Vec3<F> high, low;      // position
-  Vec3<F> normal;         // N
-  Vec3<F> facing;         // Nv: the geometric normal, turned against the ray
-  Vec3<F> to_viewer;      // V
-  Vec3<F> ambient, diffuse, specular;   // ka, kd, ks
+  Vec3<F> high, low;                   // position
+  Vec3<F> normal;                      // N
+  Vec3<F> facing;                      // Nv: the geometric normal, turned against the ray
+  Vec3<F> to_viewer;                   // V
+  Vec3<F> ambient, diffuse, specular;  // ka, kd, ks
   F shininess;
 };
 
@@ -45,9 +46,9 @@ struct ShadingPoint {
 template <class F>
 struct LightTerm {
   Vec3<F> diffuse, specular;
-  F cosine, highlight, arriving;   // N.L, max(0, Rl.V)^s and f(d), for explanations
-  Mask<F> lit;             // N.L > 0 and d > 0; the term is zero elsewhere
-  Mask<F> self_shadowed;   // lit, but Nv.L <= 0: the surface stands in its own light
+  F cosine, highlight, arriving;  // N.L, max(0, Rl.V)^s (0 if not lit) and f(d), for explanations
+  Mask<F> lit;                    // N.L > 0 and d > 0; the term is zero elsewhere
+  Mask<F> self_shadowed;          // lit, but Nv.L <= 0: the surface stands in its own light
 
   Vec3<F> total() const { return diffuse + specular; }
 };
@@ -58,55 +59,89 @@ Vec3<F> ambient_term(const ShadingPoint<F>& point, const Vec3<F>& ambient_light)
   return point.ambient * ambient_light;
 }
 
-// max(0, Rl.V)^s for unit Rl, V, as exp(s log1p(-|Rl - V|²/2)): 1 - Rl.V without the cancellation that makes a power
-// of a float dot product wrong by 37 % at s = 10^6.
+// What a light is to a point before its colours count. A kernel over many points takes the steps of light_term() one after
+// the other for all of them, so that the processor has many short chains at hand and not a few long ones.
 template <class F>
-F specular_power(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const F& shininess) {
+struct LightView {
+  Vec3<F> to_light;    // L
+  F cosine, arriving;  // N.L, f(d)
+  Mask<F> lit;         // N.L > 0 and d > 0
+};
+
+template <class F>
+LightView<F> view_light(const Vec3<F>& high, const Vec3<F>& low, const Vec3<F>& normal,
+                        const ShadingLight<Scalar<F>>& light) {
+  const auto wide = [](const std::array<Scalar<F>, 3>& v) { return Vec3<F>{F(v[0]), F(v[1]), F(v[2])}; };
+  LightView<F> view{wide(light.high), F(0), F(1), Mask<F>(true)};
+  if (!light.directional) {
+    const Vec3<F> offset = (wide(light.high) - high) + (wide(light.low) - low);
+    const F distance2 = dot(offset, offset);
+    view.lit = distance2 > F(0);
+    const F distance = square_root(select<F>(view.lit, distance2, F(1)));
+    view.to_light = (F(1) / distance) * offset;
+    if (light.attenuated)
+      view.arriving = F(1) / ((F(light.q0) + F(light.q1) * distance) + F(light.q2) * distance2);
+  }
+  view.cosine = dot(normal, view.to_light);
+  view.lit = view.lit && view.cosine > F(0);
+  return view;
+}
+
+// max(0, Rl.V)^s for unit Rl, V is exp(s log1p(-|Rl - V|²/2)): 1 - Rl.V without the cancellation that makes a power of a
+// float dot product wrong by 37 % at s = 10^6. This is |Rl - V|²/2 where Rl.V > 0 and `wanted`, and 1 elsewhere.
+template <class F>
+F below_one(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const Mask<F>& wanted) {
   const Vec3<F> apart = mirrored - to_viewer;
-  const F below_one = F(Scalar<F>(0.5)) * dot(apart, apart);   // 1 - Rl.V
-  const Mask<F> seen = dot(mirrored, to_viewer) > F(0);
+  const F below = F(Scalar<F>(0.5)) * dot(apart, apart);  // 1 - Rl.V
   // Next to grazing, rounding takes it to 1 and beyond: then the smallest cosine it can tell from 0, so that s = 0 is 1.
   const F most = F(1 - std::numeric_limits<Scalar<F>>::epsilon() / 2);
-  const F capped = select<F>(below_one < most, below_one, most);
-  const F power = lane_exp<F>(shininess * lane_log1p<F>(-capped));
-  return select<F>(seen, power, F(0));
+  const F capped = select<F>(below < most, below, most);
+  return select<F>(wanted && dot(mirrored, to_viewer) > F(0), capped, F(1));
+}
+template <class F>
+F below_one(const F& lit_cosine, const Vec3<F>& to_light, const Vec3<F>& normal, const Vec3<F>& to_viewer) {
+  const Vec3<F> mirrored = (F(2) * lit_cosine) * normal - to_light;
+  return below_one<F>(mirrored, to_viewer, lit_cosine > F(0));
+}
+
+// log of max(0, Rl.V)^s, of which lane_exp() makes 0 where it is nothing.
+template <class F>
+F log_highlight(const F& below, const F& shininess) {
+  const Mask<F> seen = below < F(1);
+  const F log = shininess * lane_log1p<F>(-select<F>(seen, below, F(0)));
+  return select<F>(seen, log, F(-std::numeric_limits<Scalar<F>>::infinity()));
+}
+
+template <class F>
+F specular_power(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const F& shininess) {
+  return lane_exp<F>(log_highlight<F>(below_one<F>(mirrored, to_viewer, Mask<F>(true)), shininess));
+}
+
+// What arrives of a light's intensity, where it is lit. (Elsewhere f(d) may be infinite.)
+template <class F>
+Vec3<F> light_here(const ShadingLight<Scalar<F>>& light, const F& arriving, const F& lit_cosine) {
+  const Vec3<F> intensity{F(light.intensity[0]), F(light.intensity[1]), F(light.intensity[2])};
+  return light.attenuated ? select<F>(lit_cosine > F(0), arriving, F(0)) * intensity : intensity;
 }
 
 // With shiny = false, for points whose ks is 0, no highlight is looked for: nothing but `highlight` differs.
 template <class F>
-LightTerm<F> light_term(const ShadingPoint<F>& point, const ShadingLight<Scalar<F>>& light, bool shiny = true) {
-  const auto wide = [](const std::array<Scalar<F>, 3>& v) { return Vec3<F>{F(v[0]), F(v[1]), F(v[2])}; };
-
-  // L, and how much of the light arrives: f(d)
-  Vec3<F> to_light = wide(light.high);
-  F arriving = F(1);
-  Mask<F> apart = Mask<F>(true);
-  if (!light.directional) {
-    const Vec3<F> offset = (wide(light.high) - point.high) + (wide(light.low) - point.low);
-    const F distance2 = dot(offset, offset);
-    apart = distance2 > F(0);
-    const F distance = square_root(select<F>(apart, distance2, F(1)));
-    to_light = (F(1) / distance) * offset;
-    if (light.attenuated)
-      arriving = F(1) / ((F(light.q0) + F(light.q1) * distance) + F(light.q2) * distance2);
-  }
-
-  const F cosine = dot(point.normal, to_light);
-  F highlight = F(0);
-  if (shiny) {
-    const Vec3<F> mirrored = (F(2) * cosine) * point.normal - to_light;
-    highlight = specular_power<F>(mirrored, point.to_viewer, point.shininess);
-  }
-
+LightTerm<F> light_term(const ShadingPoint<F>& point, const ShadingLight<Scalar<F>>& light,
+                        bool shiny = true) {
+  const LightView<F> view = view_light<F>(point.high, point.low, point.normal, light);
   LightTerm<F> term;
-  term.cosine = cosine;
-  term.highlight = highlight;
-  term.arriving = arriving;
-  term.lit = apart && cosine > F(0);
-  term.self_shadowed = term.lit && dot(point.facing, to_light) <= F(0);
-  const Vec3<F> light_here = arriving * wide(light.intensity);
-  term.diffuse = select<F>(term.lit, cosine * (light_here * point.diffuse), Vec3<F>{});
-  term.specular = select<F>(term.lit, highlight * (light_here * point.specular), Vec3<F>{});
+  term.cosine = view.cosine;
+  term.highlight = F(0);
+  term.arriving = view.arriving;
+  term.lit = view.lit;
+  term.self_shadowed = view.lit && dot(point.facing, view.to_light) <= F(0);
+  const F lit_cosine = select<F>(view.lit, view.cosine, F(0));
+  if (shiny && any<F>(view.lit))
+    term.highlight = lane_exp<F>(log_highlight<F>(
+        below_one<F>(lit_cosine, view.to_light, point.normal, point.to_viewer), point.shininess));
+  const Vec3<F> here = light_here<F>(light, view.arriving, lit_cosine);
+  term.diffuse = lit_cosine * (here * point.diffuse);
+  term.specular = term.highlight * (here * point.specular);
   return term;
 }
 

@@ -50,7 +50,7 @@ ShadingPoint<T> shading_point(const ShadingTablesOf<T>& tables, const Surface& s
 
 // Up to kCapacity visible points in structure-of-arrays form, and what the local model makes of them.
 struct ShadingBatch {
-  static constexpr int kCapacity = 64, kGroup = 16;   // multiples of every lane count
+  static constexpr int kCapacity = 128, kGroup = 16;   // multiples of every lane count
   using Channel = std::array<float, static_cast<std::size_t>(kCapacity)>;
   using Rgb = std::array<Channel, 3>;
 

@@ -3,6 +3,7 @@
 // shading_avx512.cpp, each compiled for its instruction set; the lane type in every name keeps them apart.
 #pragma once
 
+#include "common/math/lane_ops.h"
 #include "common/model/shading.h"
 
 namespace sidelight {
@@ -19,80 +20,153 @@ void store_rgb(const Vec3<F>& value, ShadingBatch::Rgb& to, std::size_t i) {
   store(value.z, &to[2][i]);
 }
 
-// The materials of entries i and on. Most often it is one, and read once.
+// The materials of a vector's entries.
 template <class F>
 struct MaterialLanes {
-  Vec3<F> ambient, diffuse, specular, local;
+  using Rgb = std::array<F, 3>;  // left as it is until it is filled: a batch seldom fills all
+  Rgb ambient, diffuse, specular, local;
   F shininess;
-  bool shiny = false;   // any of them
+};
+template <class F>
+Vec3<F> vec(const std::array<F, 3>& rgb) {
+  return {rgb[0], rgb[1], rgb[2]};
+}
+
+// Those of a whole batch. Most often it is one, and read once.
+template <class F>
+class BatchMaterials {
+ public:
+  static constexpr auto kCount = static_cast<std::size_t>(kLanes<F>);
+  static constexpr std::size_t kVectors = ShadingBatch::kCapacity / kCount;
+
+  // Of the first `vectors` vectors. Entries beyond batch.size have some material that exists.
+  BatchMaterials(const ShadingTables& tables, const ShadingBatch& batch, std::size_t vectors) {
+    std::uint32_t unlike = 0;
+    for (std::size_t i = 1; i < vectors * kCount; ++i) unlike |= batch.material[i] ^ batch.material[0];
+    one_ = unlike == 0;
+    if (one_) {
+      const ShadingMaterial& material = tables.materials[batch.material[0]];
+      shiny_ = is_shiny(material);
+      fill(0, [&](const auto& of) { return F(of(material)); });
+      return;
+    }
+    for (std::size_t v = 0; v < vectors; ++v) {
+      const std::uint32_t* number = &batch.material[v * kCount];
+      const auto material = [&](int lane) -> const ShadingMaterial& {
+        return tables.materials[number[lane]];
+      };
+      for (int lane = 0; lane < kLanes<F>; ++lane) shiny_ |= is_shiny(material(lane));
+      fill(v, [&](const auto& of) { return generate<F>([&](int lane) { return of(material(lane)); }); });
+    }
+  }
+  bool shiny() const { return shiny_; }  // any of them
+  const MaterialLanes<F>& operator[](std::size_t v) const { return of_vector_[one_ ? 0 : v]; }
+
+ private:
+  // lanes(of) is of(material) in each lane.
+  template <class Lanes>
+  void fill(std::size_t v, const Lanes& lanes) {
+    const auto rgb = [&](Vec3<float> ShadingMaterial::*color) {
+      return std::array<F, 3>{lanes([=](const ShadingMaterial& m) { return (m.*color).x; }),
+                              lanes([=](const ShadingMaterial& m) { return (m.*color).y; }),
+                              lanes([=](const ShadingMaterial& m) { return (m.*color).z; })};
+    };
+    MaterialLanes<F>& out = of_vector_[v];
+    out.ambient = rgb(&ShadingMaterial::ambient);
+    out.diffuse = rgb(&ShadingMaterial::diffuse);
+    out.specular = rgb(&ShadingMaterial::specular);
+    out.local = rgb(&ShadingMaterial::local);
+    out.shininess = lanes([](const ShadingMaterial& m) { return m.shininess; });
+  }
+
+  bool one_ = false, shiny_ = false;
+  std::array<MaterialLanes<F>, kVectors> of_vector_;
 };
 
+// What a light is to a batch: N.L or 0, f(d), and the log of the highlight, if there can be any.
 template <class F>
-MaterialLanes<F> load_materials(const ShadingTables& tables, const ShadingBatch& batch, std::size_t i) {
-  const auto material = [&](int lane) -> const ShadingMaterial& {
-    return tables.materials[batch.material[i + static_cast<std::size_t>(lane)]];
-  };
-  MaterialLanes<F> out;
-  bool one = true;
-  for (int lane = 0; lane < kLanes<F>; ++lane) {
-    one = one && &material(lane) == &material(0);
-    out.shiny = out.shiny || is_shiny(material(lane));
+struct LightLanes {
+  static constexpr std::size_t kVectors = BatchMaterials<F>::kVectors;
+  std::array<std::array<F, 3>, kVectors> to_light;
+  std::array<F, kVectors> cosine, arriving, log;
+};
+
+// The first steps of light_term(), each for all entries.
+template <class F>
+void view_light(const ShadingLight<float>& light, const ShadingBatch& batch,
+                const BatchMaterials<F>& materials, std::size_t vectors, LightLanes<F>& out) {
+  constexpr std::size_t kCount = BatchMaterials<F>::kCount;
+  for (std::size_t v = 0; v < vectors; ++v) {
+    const std::size_t i = v * kCount;
+    const LightView<F> view = view_light<F>(load_rgb<F>(batch.high, i), load_rgb<F>(batch.low, i),
+                                            load_rgb<F>(batch.normal, i), light);
+    out.to_light[v] = {view.to_light.x, view.to_light.y, view.to_light.z};
+    out.cosine[v] = select<F>(view.lit, view.cosine, F(0));
+    out.arriving[v] = view.arriving;
   }
-  const auto lanes = [&](const auto& number) {
-    if (one) return F(number(material(0)));
-    std::array<float, static_cast<std::size_t>(kLanes<F>)> values;
-    for (int lane = 0; lane < kLanes<F>; ++lane) values[static_cast<std::size_t>(lane)] = number(material(lane));
-    return load<F>(values.data());
-  };
-  const auto rgb = [&](Vec3<float> ShadingMaterial::*color) {
-    return Vec3<F>{lanes([=](const ShadingMaterial& m) { return (m.*color).x; }),
-                   lanes([=](const ShadingMaterial& m) { return (m.*color).y; }),
-                   lanes([=](const ShadingMaterial& m) { return (m.*color).z; })};
-  };
-  out.ambient = rgb(&ShadingMaterial::ambient);
-  out.diffuse = rgb(&ShadingMaterial::diffuse);
-  out.specular = rgb(&ShadingMaterial::specular);
-  out.local = rgb(&ShadingMaterial::local);
-  out.shininess = lanes([](const ShadingMaterial& m) { return m.shininess; });
-  return out;
+  if (!materials.shiny()) return;
+  for (std::size_t v = 0; v < vectors; ++v) {
+    const std::size_t i = v * kCount;
+    out.log[v] = below_one<F>(out.cosine[v], vec(out.to_light[v]), load_rgb<F>(batch.normal, i),
+                              load_rgb<F>(batch.to_viewer, i));
+  }
+  for (std::size_t v = 0; v < vectors; ++v) out.log[v] = log_highlight<F>(out.log[v], materials[v].shininess);
 }
 
-template <class F>
-void shade_lanes(const ShadingTables& tables, ShadingBatch& batch, bool with_parts, std::size_t i) {
-  const MaterialLanes<F> material = load_materials<F>(tables, batch, i);
-  ShadingPoint<F> point;
-  point.high = load_rgb<F>(batch.high, i);
-  point.low = load_rgb<F>(batch.low, i);
-  point.normal = load_rgb<F>(batch.normal, i);
-  point.to_viewer = load_rgb<F>(batch.to_viewer, i);
-  point.ambient = material.ambient;
-  point.diffuse = material.diffuse;
-  point.specular = material.specular;
-  point.shininess = material.shininess;
-  const Vec3<F>& local = material.local;   // c1
+// The batch, with the steps of light_term() one after the other. Whole vectors only: entries beyond batch.size are
+// computed with the others and unused.
+template <class F, bool kParts>
+void shade_batch(const ShadingTables& tables, ShadingBatch& batch) {
+  using Materials = BatchMaterials<F>;
+  using Colors = std::array<std::array<F, 3>, Materials::kVectors>;
+  const std::size_t vectors =
+      (static_cast<std::size_t>(batch.size) + Materials::kCount - 1) / Materials::kCount;
+  const Materials materials(tables, batch, vectors);
+  const auto add = [](std::array<F, 3>& to, const Vec3<F>& v) {
+    to = {to[0] + v.x, to[1] + v.y, to[2] + v.z};
+  };
 
-  const Vec3<float>& light = tables.ambient_light;
-  const Vec3<F> ambient = ambient_term<F>(point, {F(light.x), F(light.y), F(light.z)});
-  Vec3<F> sum = ambient, diffuse{}, specular{};
-  for (const ShadingLight<float>& each : tables.lights) {
-    const LightTerm<F> term = light_term<F>(point, each, material.shiny);
-    sum = sum + term.total();
-    diffuse = diffuse + term.diffuse;
-    specular = specular + term.specular;
+  const Vec3<F> ambient_light{F(tables.ambient_light.x), F(tables.ambient_light.y),
+                              F(tables.ambient_light.z)};
+  const auto ambient = [&](std::size_t v) { return vec(materials[v].ambient) * ambient_light; };
+  Colors sum, diffuse, specular;
+  for (std::size_t v = 0; v < vectors; ++v) {
+    const Vec3<F> start = ambient(v);
+    sum[v] = {start.x, start.y, start.z};
+    if constexpr (kParts) diffuse[v] = specular[v] = {F(0), F(0), F(0)};
   }
-  store_rgb(local * sum, batch.unshadowed, i);
-  if (!with_parts) return;
-  store_rgb(local * ambient, batch.ambient_layer, i);
-  store_rgb(local * diffuse, batch.diffuse_layer, i);
-  store_rgb(local * specular, batch.specular_layer, i);
+
+  LightLanes<F> lanes;
+  for (const ShadingLight<float>& light : tables.lights) {
+    view_light(light, batch, materials, vectors, lanes);
+    for (std::size_t v = 0; v < vectors; ++v) {
+      const Vec3<F> here = light_here<F>(light, lanes.arriving[v], lanes.cosine[v]);
+      LightTerm<F> term;
+      term.diffuse = lanes.cosine[v] * (here * vec(materials[v].diffuse));
+      term.specular =
+          (materials.shiny() ? lane_exp<F>(lanes.log[v]) : F(0)) * (here * vec(materials[v].specular));
+      add(sum[v], term.total());
+      if constexpr (kParts) {
+        add(diffuse[v], term.diffuse);
+        add(specular[v], term.specular);
+      }
+    }
+  }
+  for (std::size_t v = 0; v < vectors; ++v) {
+    const std::size_t i = v * Materials::kCount;
+    const Vec3<F> local = vec(materials[v].local);  // c1
+    store_rgb(local * vec(sum[v]), batch.unshadowed, i);
+    if constexpr (kParts) {
+      store_rgb(local * ambient(v), batch.ambient_layer, i);
+      store_rgb(local * vec(diffuse[v]), batch.diffuse_layer, i);
+      store_rgb(local * vec(specular[v]), batch.specular_layer, i);
+    }
+  }
 }
 
-// Whole vectors only: entries beyond batch.size are computed with the others and unused. Their materials are some that
-// exist, whatever else they hold.
 template <class F>
 void shade_batch(const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
-  for (int i = 0; i < batch.size; i += kLanes<F>)
-    shade_lanes<F>(tables, batch, with_parts, static_cast<std::size_t>(i));
+  with_parts ? shade_batch<F, true>(tables, batch) : shade_batch<F, false>(tables, batch);
 }
 
 // One for each instruction set.
