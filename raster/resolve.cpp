@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/prefetch.h"
+
 namespace sidelight::raster {
 namespace {
 
@@ -46,12 +48,43 @@ void TileResolve::shade_samples(bool known_t, SignCounts& counts) {
     batch.has_t = known_t;
     batch.want_t = want_t_;
   }
-  for (int Y = n_ * pixels_.y0; Y < n_ * pixels_.y1; ++Y) shade_row(Y, known_t, counts);
+  find_runs();
+  std::size_t run = 0;
+  for (int Y = n_ * pixels_.y0; Y < n_ * pixels_.y1; ++Y) run = shade_row(Y, run, known_t, counts);
   for (SurfaceBatch& batch : batches_) flush(batch, counts);
 }
 
-// Runs of background, and of primitives of one kind.
-void TileResolve::shade_row(int Y, bool known_t, SignCounts& counts) {
+// Where the primitive changes in a row, and where a row starts. (No branch: changes are hard to foresee.)
+void TileResolve::find_runs() {
+  run_start_.resize(color_.size() + 1);
+  const auto row = static_cast<std::uint32_t>(columns()), size = static_cast<std::uint32_t>(color_.size());
+  std::size_t runs = 0;
+  for (std::uint32_t start = 0; start < size; start += row) {
+    run_start_[runs++] = start;
+    std::uint32_t unlike = 0;
+    for (std::uint32_t i = start; i < start + row; ++i) unlike |= primitive_[i] ^ primitive_[start];
+    if (unlike == 0) continue;
+    for (std::uint32_t i = start + 1; i < start + row; ++i) {
+      run_start_[runs] = i;
+      runs += primitive_[i] != primitive_[i - 1];
+    }
+  }
+  run_start_[runs] = size;
+  runs_ = runs;
+}
+
+// Brings the triangle of a run near, so that the batch that it will go to finds it there.
+void TileResolve::prefetch_run(std::size_t run) const {
+  if (run >= runs_) return;
+  const std::uint32_t primitive = primitive_[run_start_[run]];
+  if (primitive == kNone) return;
+  const PrimitiveRef ref = primitive_ref(prepared_.scene, primitive);
+  if (ref.kind == ObjectKind::mesh) prefetch(&prepared_.scene.triangles[ref.index]);
+}
+
+// Stretches of background, and of primitives of one kind. From the row's first run to the next one's.
+std::size_t TileResolve::shade_row(int Y, std::size_t run, bool known_t, SignCounts& counts) {
+  constexpr std::size_t kAhead = 32;
   constexpr int kBackground = -1;
   const Scene& scene = prepared_.scene;
   std::uint32_t last_object = kNone;
@@ -67,8 +100,10 @@ void TileResolve::shade_row(int Y, bool known_t, SignCounts& counts) {
   const std::size_t start = index(n_ * pixels_.x0, Y), end = start + static_cast<std::size_t>(columns());
   for (std::size_t first = start, last; first < end; first = last) {
     const int kind = kind_of(primitive_[first]);
-    for (last = first + 1; last < end; ++last)
-      if (primitive_[last] != primitive_[last - 1] && kind_of(primitive_[last]) != kind) break;
+    do {
+      prefetch_run(run + kAhead);
+      last = run_start_[++run];
+    } while (last < end && kind_of(primitive_[last]) == kind);
     if (kind == kBackground) {
       set_background(first, last);
       continue;
@@ -83,6 +118,7 @@ void TileResolve::shade_row(int Y, bool known_t, SignCounts& counts) {
       if (batch.room() == 0) flush(batch, counts);
     }
   }
+  return run;
 }
 
 void TileResolve::set_background(std::size_t first, std::size_t last) {
@@ -129,10 +165,15 @@ void TileResolve::for_each_pixel(const Frame& frame, const Write& write) const {
 }
 
 void TileResolve::write_means(const Colors& samples, const Frame& frame, Colors& pixels) const {
-  // The mean of one sample is the sample, but for the sign of a zero.
-  if (n_ == 1)
-    return for_each_pixel(
-        frame, [&](std::size_t pixel, std::size_t sample) { pixels[pixel] = 0.0f + samples[sample]; });
+  // The mean of one sample is the sample, but for the sign of a zero. A row of them is a row of floats.
+  if (n_ == 1) {
+    for (int y = pixels_.y0; y < pixels_.y1; ++y) {
+      const float* from = &samples[index(pixels_.x0, y)].x;
+      float* to = &pixels[frame.index(pixels_.x0, y)].x;
+      for (int i = 0; i < 3 * pixels_.width(); ++i) to[i] = 0.0f + from[i];
+    }
+    return;
+  }
   const auto n = static_cast<std::size_t>(n_);
   for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) {
     PixelMean mean;

@@ -53,7 +53,9 @@ class TileResolve {
   }
   void begin(const Rect& pixels);
   void shade_samples(bool known_t, SignCounts& counts);
-  void shade_row(int Y, bool known_t, SignCounts& counts);
+  void find_runs();
+  void prefetch_run(std::size_t run) const;
+  std::size_t shade_row(int Y, std::size_t run, bool known_t, SignCounts& counts);
   void set_background(std::size_t first, std::size_t last);
   void flush(SurfaceBatch& batch, SignCounts& counts);
   void write_means(const Colors& samples, const Frame& frame, Colors& pixels) const;
@@ -69,6 +71,9 @@ class TileResolve {
   // Of each sample, row by row on the lattice. What is not wanted is empty, or holds what came before.
   const std::uint32_t* primitive_ = nullptr;
   std::vector<std::uint32_t> kept_primitive_, tests_;
+  std::vector<std::uint32_t>
+      run_start_;  // of runs_ runs of one primitive within a row; and the end of the last
+  std::size_t runs_ = 0;
   std::vector<double> known_t_, t_;
   Colors color_, normal_;
   std::array<Colors, 3> parts_;          // ambient, diffuse, specular

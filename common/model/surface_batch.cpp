@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/model/surface_kernel.h"
+#include "common/prefetch.h"
 
 namespace sidelight {
 namespace {
@@ -42,6 +43,28 @@ std::uint32_t fetch(const Scene& scene, SurfaceBatch& batch, Group& group, std::
   return triangle.material;
 }
 
+// Whether all of a group are of one primitive.
+bool is_one(const SurfaceBatch& batch, std::size_t first) {
+  using Numbers = stdx::native_simd<std::uint32_t>;
+  Numbers unlike(0);
+  for (std::size_t i = first; i < first + SurfaceBatch::kGroup; i += Numbers::size())
+    unlike |= load<Numbers>(&batch.primitive[i]) ^ Numbers(batch.primitive[first]);
+  return stdx::all_of(unlike == 0);
+}
+
+// Brings near what fetch() reads of a group's triangles, whose numbers alone say where it is.
+void prefetch_corners(const Scene& scene, const SurfaceBatch& batch, std::size_t first) {
+  if (is_one(batch, first)) return;
+  for (std::size_t i = first; i < first + SurfaceBatch::kGroup; ++i) {
+    if (i > first && batch.primitive[i] == batch.primitive[i - 1]) continue;
+    const Triangle& triangle = scene.triangles[primitive_ref(scene, batch.primitive[i]).index];
+    for (std::size_t k = 0; k < 3; ++k) {
+      prefetch(&scene.positions[triangle.vertex[k]]);
+      if (triangle.normal[k] != kNone) prefetch(&scene.normals[triangle.normal[k]]);
+    }
+  }
+}
+
 // Entries beyond the last, up to a whole group, repeat it, so that lanes are full of what is true somewhere.
 void pad(SurfaceBatch& batch) {
   const auto size = static_cast<std::size_t>(batch.size);
@@ -57,11 +80,8 @@ void fetch_group(const Scene& scene, const ShadingTables& tables, SurfaceBatch& 
                  std::size_t first) {
   constexpr std::size_t kGroup = SurfaceBatch::kGroup;
   Group& group = batch.group[first / kGroup];
-  const std::uint32_t* primitive = &batch.primitive[first];
   group = {};
-  std::uint32_t unlike = 0;
-  for (std::size_t i = 1; i < kGroup; ++i) unlike |= primitive[i] ^ primitive[0];
-  group.one = unlike == 0;
+  group.one = is_one(batch, first);
   if (group.one) {
     const std::uint32_t material = fetch(scene, batch, group, first);
     group.shiny = is_shiny(tables.materials[material]);
@@ -94,7 +114,14 @@ void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const Shadin
   if (batch.size == 0) return;
   pad(batch);
   const auto size = static_cast<std::size_t>(batch.size);
-  for (std::size_t i = 0; i < size; i += SurfaceBatch::kGroup) fetch_group(scene, tables, batch, out, i);
+  const auto prefetch_group = [&](std::size_t i) {
+    if (batch.kind == ObjectKind::mesh && i < size) prefetch_corners(scene, batch, i);
+  };
+  prefetch_group(0);
+  for (std::size_t i = 0; i < size; i += SurfaceBatch::kGroup) {
+    prefetch_group(i + SurfaceBatch::kGroup);
+    fetch_group(scene, tables, batch, out, i);
+  }
 
   const SurfaceView view{vec(camera.eye), vec(camera.right), vec(camera.up), vec(camera.axis_part()),
                          tables.length_scale};

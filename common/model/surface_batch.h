@@ -5,6 +5,8 @@
 // certificates do not (a triangle seen nearly edge-on).
 #pragma once
 
+#include <algorithm>
+
 #include "common/model/shading.h"
 #include "common/scene/camera.h"
 
@@ -16,6 +18,12 @@ struct SurfaceBatch {
   template <class T>
   using Channel = std::array<T, static_cast<std::size_t>(kCapacity)>;
   using Vectors = std::array<Channel<double>, 3>;
+  // 0, 2, 4, ...: column factors of neighbours.
+  static constexpr Channel<double> kTwice = [] {
+    Channel<double> twice{};
+    for (int k = 0; k < kCapacity; ++k) twice[static_cast<std::size_t>(k)] = 2 * k;
+    return twice;
+  }();
 
   ObjectKind kind = ObjectKind::mesh;
   int size = 0;
@@ -29,13 +37,11 @@ struct SurfaceBatch {
   // `count` <= room() neighbours in a row, from the one with this column factor and number.
   void add(double first_column, double row_factor, const std::uint32_t* primitives,
            std::uint32_t first_number, int count) {
-    for (int k = 0; k < count; ++k) {
-      const auto i = static_cast<std::size_t>(size + k);
-      column[i] = first_column + 2 * k;
-      row[i] = row_factor;
-      primitive[i] = primitives[k];
-      sample[i] = first_number + static_cast<std::uint32_t>(k);
-    }
+    const auto to = static_cast<std::size_t>(size), added = static_cast<std::size_t>(count);
+    for (std::size_t k = 0; k < added; ++k) column[to + k] = first_column + kTwice[k];
+    for (std::size_t k = 0; k < added; ++k) sample[to + k] = first_number + static_cast<std::uint32_t>(k);
+    std::fill_n(&row[to], added, row_factor);
+    std::copy_n(primitives, added, &primitive[to]);
     size += count;
   }
 

@@ -7,6 +7,8 @@
 // Schwarz), which is greater and cheaper. A lane that fails it is marked, and asked again by surface_at().
 #pragma once
 
+#include <memory>
+
 #include "common/math/lane_ops.h"
 #include "common/math/vec.h"
 #include "common/model/surface_batch.h"
@@ -56,13 +58,22 @@ class SurfaceLanes {
   void put_t(const F& t) { store(t, &batch_.t[first_]); }
   void put_doubt(const Mask<F>& sure) {
     store(select<F>(sure, F(0), F(1)), &batch_.doubtful[first_]);
+    note_doubt(sure);
+  }
+  // Besides what is in doubt already.
+  void add_doubt(const Mask<F>& sure) {
+    store(select<F>(sure, load<F>(&batch_.doubtful[first_]), F(1)), &batch_.doubtful[first_]);
+    note_doubt(sure);
+  }
+
+ private:
+  void note_doubt(const Mask<F>& sure) {
     if constexpr (kLanes<F> == 1)
       batch_.any_doubtful |= !sure;
     else
       batch_.any_doubtful |= !stdx::all_of(sure);
   }
 
- private:
   SurfaceBatch& batch_;
   std::size_t first_, group_;
 };
@@ -76,12 +87,16 @@ void put_rounded(const Vec3<F>& v, ShadingBatch::Rgb& to, std::size_t i) {
 
 // shading_point()
 template <class F>
-void put_point(const SurfaceView& view, const Vec3<F>& point, const Vec3<F>& normal, const Vec3<F>& direction,
-               bool shiny, ShadingBatch& out, std::size_t i) {
+void put_position(const SurfaceView& view, const Vec3<F>& point, ShadingBatch& out, std::size_t i) {
   const Vec3<F> scaled = F(view.length_scale) * point;
   const auto above = [](const F& x) { return x - to_double<F>(to_float(x)); };
   put_rounded(scaled, out.high, i);
   put_rounded(Vec3<F>{above(scaled.x), above(scaled.y), above(scaled.z)}, out.low, i);
+}
+template <class F>
+void put_point(const SurfaceView& view, const Vec3<F>& point, const Vec3<F>& normal, const Vec3<F>& direction,
+               bool shiny, ShadingBatch& out, std::size_t i) {
+  put_position(view, point, out, i);
   put_rounded(normal, out.normal, i);
   if (shiny) put_rounded(-normalized(direction), out.to_viewer, i);
 }
@@ -160,11 +175,24 @@ Vec3<F> triangle_normal(const TriangleLanes<F>& triangle, const std::array<F, 3>
   return select<F>(none, triangle.facing, normalized(unit_or_x));
 }
 
+// Where one may be made: nothing is done to it before.
+template <class F>
+union RoomForTriangle {
+  RoomForTriangle() {}
+  TriangleLanes<F> lanes;
+};
+
+// What is known of a sample between the steps below. Arrays, which are not zeroed first as a Vec3 would be.
+template <class F>
+struct SampleLanes {
+  std::array<F, 3> direction, barycentric;
+};
+
 // d . weight <= |d| sum |a_i| |a_j| <= |d| S, and 6 u of it may be 2^-20 |sum|.
 // Depth: |d| 4 sqrt(S T) <= 2^31 |d . n| iff |d|² S T <= 2^58 (d . n)²; 2^57 for the rounding of the bound.
 template <class F>
-void triangle_surfaces(const SurfaceView& view, const TriangleLanes<F>& triangle, SurfaceBatch& batch,
-                       ShadingBatch& out, std::size_t i) {
+void locate_sample(const SurfaceView& view, const TriangleLanes<F>& triangle, SurfaceBatch& batch,
+                   std::size_t i, SampleLanes<F>& sample) {
   SurfaceLanes<F> lanes(batch, i);
   const Vec3<F> d = lanes.direction(view);
   std::array<F, 3> e{dot(d, triangle.edge[0]), dot(d, triangle.edge[1]), dot(d, triangle.edge[2])};
@@ -174,10 +202,8 @@ void triangle_surfaces(const SurfaceView& view, const TriangleLanes<F>& triangle
   for (F& each : e) each = select<F>((each < F(0)) != negative, F(0), each);
   const F sum = (e[0] + e[1]) + e[2];
   const F first = lanes.group().smooth ? e[0] / sum : F(0);  // only the normal asks for it
-  const std::array<F, 3> barycentric{first, e[1] / sum, e[2] / sum};
-
-  const Vec3<F> point = (triangle.v0 + barycentric[1] * triangle.e1) + barycentric[2] * triangle.e2;
-  const Vec3<F> normal = triangle_normal(triangle, barycentric, lanes.group(), sure);
+  sample.direction = {d.x, d.y, d.z};
+  sample.barycentric = {first, e[1] / sum, e[2] / sum};
   if (batch.want_t && !batch.has_t) {
     const F d_n = dot(d, triangle.n);
     const F t = triangle.a0_n / d_n;
@@ -186,20 +212,47 @@ void triangle_surfaces(const SurfaceView& view, const TriangleLanes<F>& triangle
     lanes.put_t(t);
   }
   lanes.put_doubt(sure);
-  put_point(view, point, normal, d, lanes.group().shiny, out, i);
 }
 
+// Step by step, each for all entries, so that the processor has many short chains of operations at hand and not a few
+// long ones.
 template <class F>
 void surfaces_of_triangles(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out) {
-  TriangleLanes<F> triangle;
-  std::uint32_t last = kNone;  // the one triangle that it is set up for
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>) {
-    const SurfaceLanes<F> lanes(batch, i);
-    const std::uint32_t one = lanes.group().one ? batch.primitive[i] : kNone;
-    if (one == kNone || one != last)
-      triangle = triangle_lanes(lanes, wide<F>(view.eye), batch.want_t && !batch.has_t);
+  constexpr auto kCount = static_cast<std::size_t>(kLanes<F>), kVectors = SurfaceBatch::kCapacity / kCount;
+  const std::size_t vectors = (static_cast<std::size_t>(batch.size) + kCount - 1) / kCount;
+  std::array<RoomForTriangle<F>, kVectors> room;
+  std::array<const TriangleLanes<F>*, kVectors> triangle;
+  std::array<SampleLanes<F>, kVectors> sample;
+
+  std::uint32_t last = kNone;  // the one triangle that the vector before is of
+  for (std::size_t v = 0; v < vectors; ++v) {
+    const SurfaceLanes<F> lanes(batch, v * kCount);
+    const std::uint32_t one = lanes.group().one ? batch.primitive[v * kCount] : kNone;
+    if (one != kNone && one == last) {
+      triangle[v] = triangle[v - 1];
+    } else {
+      triangle[v] = std::construct_at(&room[v].lanes,
+                                      triangle_lanes(lanes, wide<F>(view.eye), batch.want_t && !batch.has_t));
+    }
     last = one;
-    triangle_surfaces(view, triangle, batch, out, i);
+  }
+  for (std::size_t v = 0; v < vectors; ++v) locate_sample(view, *triangle[v], batch, v * kCount, sample[v]);
+  for (std::size_t v = 0; v < vectors; ++v) {
+    const TriangleLanes<F>& at = *triangle[v];
+    const std::array<F, 3>& barycentric = sample[v].barycentric;
+    put_position(view, (at.v0 + barycentric[1] * at.e1) + barycentric[2] * at.e2, out, v * kCount);
+  }
+  for (std::size_t v = 0; v < vectors; ++v) {
+    SurfaceLanes<F> lanes(batch, v * kCount);
+    Mask<F> sure(true);
+    put_rounded(triangle_normal(*triangle[v], sample[v].barycentric, lanes.group(), sure), out.normal,
+                v * kCount);
+    lanes.add_doubt(sure);
+  }
+  for (std::size_t v = 0; v < vectors; ++v) {
+    const auto& [x, y, z] = sample[v].direction;
+    if (SurfaceLanes<F>(batch, v * kCount).group().shiny)
+      put_rounded(-normalized(Vec3<F>{x, y, z}), out.to_viewer, v * kCount);
   }
 }
 
