@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "common/picture/frame.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -11,12 +14,29 @@
 namespace sidelight {
 namespace {
 
+constexpr std::size_t kLargePages = std::size_t{4} << 20;  // bytes from which they are worth it
+
 bool asked_for(const RenderOptions& options, Layer layer) { return (options.layers & layer_bit(layer)) != 0; }
 
 // The part of the picture that is stored.
 Rect stored_window(int width, int height, const RenderOptions& options) {
   const bool cropped = options.crop.width() > 0 && options.crop.height() > 0;
   return cropped ? options.crop : Rect{0, 0, width, height};
+}
+
+// Zeros, `size` of them. Memory is new in most frames, and the system hands it out page by page as it is touched: at 1440p
+// that took longer than the zeros in it. So large arrays ask for large pages; a system without them does as before.
+template <class T>
+void make_zeros(std::vector<T>& array, std::size_t size) {
+  array.reserve(size);
+#ifdef MADV_HUGEPAGE
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(array.data());
+  const std::uintptr_t first = (begin + page - 1) / page * page,
+                       end = (begin + size * sizeof(T)) / page * page;
+  if (end > first + kLargePages) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+#endif
+  array.resize(size);
 }
 
 // Where the search for the first value that is not finite stands.
@@ -74,19 +94,19 @@ Frame make_frame(int width, int height, int n, const RenderOptions& options) {
   assert(frame.window.y0 >= 0 && frame.window.y0 < frame.window.y1 && frame.window.y1 <= height);
 
   const std::size_t pixels = frame.pixels();
-  frame.color.resize(pixels);
+  make_zeros(frame.color, pixels);
   for (std::size_t i = 0; i < frame.rgb.size(); ++i) {
-    if (asked_for(options, static_cast<Layer>(i))) frame.rgb[i].resize(pixels);
+    if (asked_for(options, static_cast<Layer>(i))) make_zeros(frame.rgb[i], pixels);
   }
-  if (asked_for(options, Layer::depth)) frame.depth.resize(pixels);
-  if (asked_for(options, Layer::object)) frame.object_id.resize(pixels);
-  if (asked_for(options, Layer::primitive)) frame.primitive_id.resize(pixels);
-  if (asked_for(options, Layer::normal)) frame.normal.resize(pixels);
-  if (asked_for(options, Layer::cost)) frame.cost.resize(pixels);
+  if (asked_for(options, Layer::depth)) make_zeros(frame.depth, pixels);
+  if (asked_for(options, Layer::object)) make_zeros(frame.object_id, pixels);
+  if (asked_for(options, Layer::primitive)) make_zeros(frame.primitive_id, pixels);
+  if (asked_for(options, Layer::normal)) make_zeros(frame.normal, pixels);
+  if (asked_for(options, Layer::cost)) make_zeros(frame.cost, pixels);
   if (options.keep_samples) {
     const std::size_t samples = pixels * static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-    frame.sample_primitive.resize(samples);
-    frame.sample_depth.resize(samples);
+    make_zeros(frame.sample_primitive, samples);
+    make_zeros(frame.sample_depth, samples);
   }
   return frame;
 }
