@@ -133,10 +133,11 @@ template <class F>
 
 // ---- Large surfaces ----
 
-// An affine function over one block, anchored in double at its first sample and stepped in float from there.
-// Bound. With M = |value| + 15|x| + 7|y|, value, x and y are rounded to float, their products with whole numbers once
-// more, and two sums are made of them: at most 2^-24 (3|value| + 3 * 15|x| + 4 * 7|y|) <= 2^-22 M. Twice that leaves
-// room for low and high.
+// An affine function over a block of (columns + 1) x (rows + 1) samples, anchored in double at its first sample and
+// stepped in float from there.
+// Bound. With M = |value| + columns |x| + rows |y|, value, x and y are rounded to float, their products with whole
+// numbers once more, and two sums are made of them: at most 2^-24 (3|value| + 3 columns |x| + 4 rows |y|) <= 2^-22 M.
+// Twice that leaves room for low and high.
 struct Anchored {
   float value, x, y;
   float bound;      // on the error at any sample of the block
@@ -144,13 +145,13 @@ struct Anchored {
 };
 
 template <class F>
-Anchored anchored(const Affine& affine, double error, int X, int Y) {
-  constexpr float kX = TileView::kBlockColumns - 1, kY = TileView::kBlockRows - 1;
+Anchored anchored(const Affine& affine, double error, int X, int Y,
+                  float columns = TileView::kBlockColumns - 1, float rows = TileView::kBlockRows - 1) {
   Anchored a;
   a.value = static_cast<float>(affine.at(X, Y));
   a.x = static_cast<float>(affine.x);
   a.y = static_cast<float>(affine.y);
-  const float dx = kX * a.x, dy = kY * a.y;
+  const float dx = columns * a.x, dy = rows * a.y;
   a.bound =
       0x1p-21f * ((lane_abs(a.value) + lane_abs(dx)) + lane_abs(dy)) + 1.0001f * static_cast<float>(error);
   a.low = a.value + (lane_min(dx, 0.0f) + lane_min(dy, 0.0f)) - a.bound;
@@ -158,13 +159,22 @@ Anchored anchored(const Affine& affine, double error, int X, int Y) {
   return a;
 }
 
+template <class F>
+bool has_sure_depth(const LargeSurface& surface, const Anchored& w) {
+  return surface.depth.sure && lane_abs(w.high) < 1e30f && lane_abs(w.low) < 1e30f;
+}
+template <class F>
+bool surely_behind(const LargeSurface& surface, const Anchored& w, float farthest) {
+  return has_sure_depth<F>(surface, w) && w.high * kSurely < farthest;
+}
+
 // The block whose first sample is (X0, Y0).
 template <class F>
 void draw_block(const TileView& tile, const LargeSurface& surface, int X0, int Y0, float& farthest) {
   constexpr int kColumns = TileView::kBlockColumns;
   const Anchored w = anchored<F>(surface.depth.w, surface.depth.error, X0, Y0);
-  const bool sure = surface.depth.sure && lane_abs(w.high) < 1e30f && lane_abs(w.low) < 1e30f;
-  if (sure && w.high * kSurely < farthest) return;  // hidden: all samples hold something nearer
+  if (surely_behind<F>(surface, w, farthest)) return;  // hidden: all samples hold something nearer
+  const bool sure = has_sure_depth<F>(surface, w);
 
   // Edges that the whole block is inside of need no test; one that it is outside of needs no block.
   std::array<Anchored, 3> edge;
@@ -227,13 +237,23 @@ template <class F>
   const int x0 = std::max(surface.box.x0, tile.box.x0), x1 = std::min(surface.box.x1, tile.box.x1);
   const int y0 = std::max(surface.box.y0, tile.box.y0), y1 = std::min(surface.box.y1, tile.box.y1);
   if (x0 >= x1) return;
-  for (int row = (y0 - tile.box.y0) / TileView::kBlockRows; tile.box.y0 + row * TileView::kBlockRows < y1;
-       ++row)
-    for (int column = (x0 - tile.box.x0) / TileView::kBlockColumns;
-         tile.box.x0 + column * TileView::kBlockColumns < x1; ++column)
-      draw_block<F>(tile, surface, tile.box.x0 + column * TileView::kBlockColumns,
-                    tile.box.y0 + row * TileView::kBlockRows,
-                    tile.farthest[row * tile.block_columns + column]);
+  const auto for_each_block = [&](const auto& visit) {
+    for (int row = (y0 - tile.box.y0) / TileView::kBlockRows; tile.box.y0 + row * TileView::kBlockRows < y1;
+         ++row)
+      for (int column = (x0 - tile.box.x0) / TileView::kBlockColumns;
+           tile.box.x0 + column * TileView::kBlockColumns < x1; ++column)
+        visit(tile.box.x0 + column * TileView::kBlockColumns, tile.box.y0 + row * TileView::kBlockRows,
+              tile.farthest[row * tile.block_columns + column]);
+  };
+  // Layers behind a wall are dropped a whole tile at a time.
+  float farthest = std::numeric_limits<float>::infinity();
+  for_each_block([&](int, int, float of_block) { farthest = lane_min(farthest, of_block); });
+  if (farthest > 0) {
+    const Anchored w = anchored<F>(surface.depth.w, surface.depth.error, x0, y0,
+                                   static_cast<float>(x1 - 1 - x0), static_cast<float>(y1 - 1 - y0));
+    if (surely_behind<F>(surface, w, farthest)) return;
+  }
+  for_each_block([&](int X, int Y, float& of_block) { draw_block<F>(tile, surface, X, Y, of_block); });
 }
 
 }  // namespace sidelight::raster
