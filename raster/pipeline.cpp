@@ -3,6 +3,7 @@
 // what is visible once. Object order: the z-buffer never asks what else a ray might meet.
 #include <vector>
 
+#include "common/clock.h"
 #include "common/float_state.h"
 #include "common/parallel.h"
 #include "raster/bins.h"
@@ -15,7 +16,9 @@
 
 namespace sidelight::raster {
 
-std::shared_ptr<const Prepared> prepare(const Scene& scene, int) { return prepare_for(needs_of(scene), scene); }
+std::shared_ptr<const Prepared> prepare(const Scene& scene, int) {
+  return prepare_for(needs_of(scene), scene);
+}
 std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene) {
   const StandardFloatState nearest_and_denormals;
   return std::make_shared<const Prepared>(scene, needs);
@@ -38,7 +41,7 @@ struct Job {
   int threads;
 };
 
-// shade_tile(tile, thread, resolve, counts) for every tile of the picture; what it shades is written into the frame.
+// shade_tile(tile, thread, resolve, counts) for every tile of the picture.
 template <class ShadeTile>
 void for_each_tile(const Job& job, Frame& frame, const ShadeTile& shade_tile) {
   const RenderOptions& options = job.options;
@@ -50,25 +53,46 @@ void for_each_tile(const Job& job, Frame& frame, const ShadeTile& shade_tile) {
     if (options.cancel && *options.cancel) throw Interrupted();
     TileResolve& resolve = resolves[static_cast<std::size_t>(thread)];
     shade_tile(tile, thread, resolve, counts[static_cast<std::size_t>(thread)]);
-    resolve.write(frame);
     if (options.progress) options.progress(static_cast<double>(++done) / job.grid.count());
   });
-  for (const SignCounts& of_thread : counts) frame.stats.add_counts({.rays = {}, .signs = of_thread});
+  for (const SignCounts& of_thread : counts)
+    frame.stats.add_counts({.rays = {}, .signs = of_thread, .stages = {}});
 }
 
 void render_fast(const Job& job, Frame& frame) {
   const Scene& scene = job.prepared.scene;
-  const VisibleBins bins(scene, job.prepared.corners.data(), job.camera, job.grid, job.options.isa, job.threads);
-  std::vector<VisibleTile> tiles(static_cast<std::size_t>(job.threads));
+  const VisibleBins bins(scene, job.prepared.corners.data(), job.camera, job.grid, job.options.isa,
+                         job.threads);
+  struct Times {
+    double draw_ms = 0, shade_ms = 0;
+  };
+  const auto threads = static_cast<std::size_t>(job.threads);
+  std::vector<VisibleTile> tiles(threads);
+  std::vector<Times> times(threads);
   for_each_tile(job, frame, [&](int tile, int thread, TileResolve& resolve, SignCounts& counts) {
     const Rect pixels = job.grid.tile(tile);
     VisibleTile& visible = tiles[static_cast<std::size_t>(thread)];
+    Times& spent = times[static_cast<std::size_t>(thread)];
+    LapClock clock;
     const TileView view = visible.clear(scene, job.camera, samples_of(pixels, job.camera.n), counts);
     bins.draw(view, tile);
+    spent.draw_ms += clock.lap_ms();
     resolve.shade(pixels, visible.primitives(view), counts);
+    resolve.write(frame);
+    spent.shade_ms += clock.lap_ms();
   });
-  for (const ThreadBins& of_thread : bins.threads())
-    frame.stats.add_counts({.rays = {}, .signs = of_thread.counts});
+
+  std::array<StageTime, 4> stages{{{"project"}, {"set_up"}, {"draw"}, {"shade"}}};
+  for (const ThreadBins& of_thread : bins.threads()) {
+    frame.stats.add_counts({.rays = {}, .signs = of_thread.counts, .stages = {}});
+    stages[0].ms += of_thread.project_ms;
+    stages[1].ms += of_thread.set_up_ms;
+  }
+  for (const Times& of_thread : times) {
+    stages[2].ms += of_thread.draw_ms;
+    stages[3].ms += of_thread.shade_ms;
+  }
+  frame.stats.stages.assign(stages.begin(), stages.end());
 }
 
 // With the z-buffer that a student reads, which also has the faults and counts each pixel's tests.
@@ -81,6 +105,7 @@ void render_readable(const Job& job, Frame& frame) {
     const auto draw_and_shade = [&](auto&& depth) {
       bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(scene, primitive, counts); });
       resolve.shade_hits(pixels, depth, counts);
+      resolve.write(frame);
     };
     NoFragments nothing;
     if (faults.depth_format || faults.float_precision)

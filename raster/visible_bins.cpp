@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 
+#include "common/clock.h"
 #include "common/parallel.h"
 
 namespace sidelight::raster {
@@ -47,22 +48,29 @@ VisibleBins::VisibleBins(const Scene& scene, const Corners3* corners, const Came
       vertices_(std::make_unique_for_overwrite<ScreenVertex[]>(scene.positions.size())),
       threads_(static_cast<std::size_t>(threads)) {
   const auto vertices = static_cast<std::uint32_t>(scene.positions.size());
-  parallel_for(static_cast<int>((vertices + kVertexBatch - 1) / kVertexBatch), threads, [&](int item, int) {
-    const std::uint32_t first = static_cast<std::uint32_t>(item) * kVertexBatch;
-    kernels_.project(space_, &scene.positions[first], &vertices_[first],
-                     static_cast<int>(std::min(kVertexBatch, vertices - first)));
-  });
+  parallel_for(static_cast<int>((vertices + kVertexBatch - 1) / kVertexBatch), threads,
+               [&](int item, int thread) {
+                 LapClock clock;
+                 const std::uint32_t first = static_cast<std::uint32_t>(item) * kVertexBatch;
+                 kernels_.project(space_, &scene.positions[first], &vertices_[first],
+                                  static_cast<int>(std::min(kVertexBatch, vertices - first)));
+                 threads_[static_cast<std::size_t>(thread)].project_ms += clock.lap_ms();
+               });
 
   for (ThreadBins& bins : threads_) bins.tiles.resize(static_cast<std::size_t>(grid.count()));
   std::vector<std::unique_ptr<Workshop>> shops(threads_.size());
   const std::vector<Batch> work = batches();
   parallel_for(static_cast<int>(work.size()), threads, [&](int item, int thread) {
+    LapClock clock;
     const auto t = static_cast<std::size_t>(thread);
     if (!shops[t]) shops[t] = std::make_unique<Workshop>();
     set_up_triangles(work[static_cast<std::size_t>(item)], *shops[t], threads_[t]);
+    threads_[t].set_up_ms += clock.lap_ms();
   });
+  LapClock clock;
   for (const Object& object : scene.objects)
     if (object.kind != ObjectKind::mesh) set_up_other(object.first_primitive, threads_[0]);
+  threads_[0].set_up_ms += clock.lap_ms();
 }
 
 std::vector<VisibleBins::Batch> VisibleBins::batches() const {

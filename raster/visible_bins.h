@@ -29,6 +29,7 @@ struct ThreadBins {
   std::vector<LargeSurface> large;
   std::vector<BoxedSphere> spheres;
   SignCounts counts;
+  double project_ms = 0, set_up_ms = 0;  // what the thread spent on it
 };
 
 class VisibleBins {

@@ -88,13 +88,20 @@ struct SignCounts {
   std::uint64_t nodes = 0;      // ray tracer only
 };
 
+// Wall time spent in one stage of a renderer, of all its threads together.
+struct StageTime {
+  std::string_view name;
+  double ms = 0;
+};
+
 struct RenderStats {
   RayCounts rays;
   SignCounts signs;
   std::uint64_t self_shadowed = 0;  // light terms dropped because the surface stands in its own light
   double cut_weight = 0;            // mean over samples of the weights of all rays not sent
+  std::vector<StageTime> stages;    // in their order; empty where a renderer does not time them
 
-  // Adds the counts; cut_weight is left to the caller, who must add in a fixed order.
+  // Adds the counts; stages are left alone, cut_weight to the caller, who must add in a fixed order.
   void add_counts(const RenderStats& other);
 };
 

@@ -168,6 +168,24 @@ TEST_CASE("output: the statistics have the documented keys") {
   CHECK(json["tests"] > 16 * 12 * 4);  // each of them asks at least the plane
 }
 
+TEST_CASE("output: the z-buffer's statistics tell where its time goes") {
+  const Workplace here;
+  const Outcome outcome =
+      here.run(render({"-o", "a.png", "--renderer", "raster", "-j", "1", "--stats", "-"}));
+  REQUIRE(outcome.code == 0);
+  const auto json = nlohmann::ordered_json::parse(outcome.out);
+  std::vector<std::string> stages;
+  double sum = 0;
+  for (const auto& [stage, ms] : json["stages_ms"].items()) {
+    stages.push_back(stage);
+    CHECK(ms >= 0);
+    sum += ms.get<double>();
+  }
+  CHECK(stages == std::vector<std::string>{"project", "set_up", "draw", "shade"});
+  CHECK(sum > 0);
+  CHECK(sum <= json["frame_ms"]["max"]);
+}
+
 TEST_CASE("output: compare writes its nine files and the documented keys") {
   const Workplace here;
   REQUIRE(here.run(compare_into("out")).code == 0);

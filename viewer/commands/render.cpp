@@ -78,6 +78,7 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
       {"self_shadowed", stats.self_shadowed},
       {"cut_weight", stats.cut_weight},
       {"peak_memory_mb", peak_memory_mb()}};
+  for (const StageTime& stage : stats.stages) json["stages_ms"][std::string(stage.name)] = stage.ms;
   if (job.options.faults.any()) json["faults"] = job.options.faults.text();
   return json.dump(2) + "\n";
 }
