@@ -8,7 +8,7 @@
 #include "tests/support/random.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

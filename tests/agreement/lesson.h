@@ -15,7 +15,7 @@
 #include "tests/agreement/pictures.h"
 #include "tests/support/approx.h"
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 inline glm::dvec3 grey(double value) { return glm::dvec3(value); }
 
@@ -113,4 +113,4 @@ class Lesson {
   Scene scene_;
 };
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

@@ -21,7 +21,7 @@
 #include "raytrace/raytrace.h"
 #include "tests/tier.h"
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 // All scene files that are shipped, in order of name. A folder without any is a failure, not a quick success.
 inline std::vector<std::string> shipped_scenes() {
@@ -148,4 +148,4 @@ inline std::string short_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

@@ -13,7 +13,6 @@
 #include "tests/support/scenes.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
 using namespace sidelight::test;
 
 namespace {

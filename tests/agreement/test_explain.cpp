@@ -15,7 +15,7 @@
 #include "tests/tier.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

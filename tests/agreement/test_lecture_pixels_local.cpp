@@ -9,7 +9,7 @@
 #include "tests/agreement/lesson.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 using glm::dvec3;
 using std::sqrt;
 

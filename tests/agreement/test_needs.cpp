@@ -8,7 +8,7 @@
 #include "tests/agreement/pictures.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 TEST_CASE("needs: a claim of what a scene does not need changes no bit") {
   const PictureSize size = parse_size(test::tier_list("agreement_sizes").front());

@@ -14,7 +14,7 @@
 #include "tests/picture/folder.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 using test::HardCase;
 
 namespace {

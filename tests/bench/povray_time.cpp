@@ -14,7 +14,7 @@
 namespace sidelight::bench {
 
 std::optional<double> povray_seconds(const Scene& scene) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_text_file(folder / "scene.pov", [&](const AppendText& append) { write_pov(scene, append); });
   std::string command = "cd '" + folder / "." + "' && povray +Iscene.pov -F +WT1 +Q9";
   for (const std::string& option : pov_options(scene))

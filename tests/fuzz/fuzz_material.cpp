@@ -5,9 +5,9 @@
 #include "tests/picture/folder.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const sidelight::testing::TemporaryFolder folder;
+  static const sidelight::test::TemporaryFolder folder;
   const std::string path = folder / "m.mtl";
-  sidelight::testing::write_bytes(path, std::string(reinterpret_cast<const char*>(data), size));
+  sidelight::test::write_bytes(path, std::string(reinterpret_cast<const char*>(data), size));
   sidelight::fuzz::read_or_refuse(path, [&] { sidelight::read_mtl(path, {path, 1, 1}); });
   return 0;
 }

@@ -9,7 +9,7 @@
 #include "tests/picture/frames.h"
 
 using namespace sidelight;
-using testing::write_bytes;
+using test::write_bytes;
 
 namespace {
 
@@ -39,8 +39,8 @@ int main(int argc, char** argv) {
   write_bytes((folder / "mesh/all.obj").string(), kMesh + '\0' + kMaterials);
   write_bytes((folder / "material/all.mtl").string(), kMaterials);
 
-  Frame frame = make_frame(7, 5, 1, testing::options_with(kRaytraceLayers));
-  testing::fill_with_noise(frame, 1);
+  Frame frame = make_frame(7, 5, 1, test::options_with(kRaytraceLayers));
+  test::fill_with_noise(frame, 1);
   const Metadata metadata{{"program", "sidelight"}, {"title", "seed"}};
   write_exr((folder / "picture/color.exr").string(), frame, metadata);
   write_png((folder / "picture/color.png").string(), to_image8(frame.color, frame.width(), frame.height()),

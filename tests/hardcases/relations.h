@@ -10,7 +10,7 @@
 #include "common/scene/toml.h"
 #include "tests/agreement/pictures.h"
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 // How far the second of two frames is from the first.
 struct Likeness {
@@ -129,4 +129,4 @@ Scene rebuilt(const Scene& scene, const std::vector<std::size_t>& order, const C
 }
 inline void unchanged(std::vector<Triangle>&, std::vector<glm::dvec3>&) {}
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

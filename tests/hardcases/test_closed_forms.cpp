@@ -236,7 +236,7 @@ TEST_CASE("FORM-5: a closed box of mirrors") {
   scene.camera.look_at = {1, 0.4, -0.7};
   scene.camera.view_height = 2;
   const int edge = std::min(128, tier_edge() / 4);
-  const Frame frame = testing::traced(scene, make_camera(scene.camera, edge, edge, 1));
+  const Frame frame = test::traced(scene, make_camera(scene.camera, edge, edge, 1));
   Worst color;
   for (const glm::vec3& c : frame.color) color.add(std::abs(c.x / series(kGlow, k, kDepth) - 1));
   const HardCase closed("FORM-5");

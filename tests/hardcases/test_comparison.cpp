@@ -7,7 +7,6 @@
 
 using namespace sidelight;
 using namespace sidelight::test;
-using namespace sidelight::testing;
 
 TEST_CASE("IMG-1: values that are not finite never pass") {
   const Scene scene = everything();

@@ -183,9 +183,9 @@ TEST_CASE("REF-7: light trapped in a cube and in a gem of index 2.4") {
           const int edge = std::min(tier_edge() / 3, 160);
           const Camera camera = make_camera(scene.camera, edge, edge, 1);
           on_small_stack(kSmallStack, [&] {
-            RenderOptions options = testing::keeping(0);
+            RenderOptions options = test::keeping(0);
             options.threads = 1;
-            frames.push_back(testing::traced(scene, camera, options));
+            frames.push_back(test::traced(scene, camera, options));
           });
           const Frame& frame = frames.back();
           double sum = 0;

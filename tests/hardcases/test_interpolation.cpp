@@ -11,7 +11,6 @@
 
 using namespace sidelight;
 using namespace sidelight::test;
-using namespace sidelight::testing;
 
 // Triangles whose corners are seen well apart on a picture of 1024 x 1024, at depths in a ratio of up to 1e7. The
 // attribute 0, 1, 2 at the corners is u = b1 + 2 b2. E_k is off by 6 u P_k, P its permanent (visibility.cpp), so with

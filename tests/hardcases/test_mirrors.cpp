@@ -96,7 +96,7 @@ TEST_CASE("MIR-4: rays double at each level, and what is cut off is what is miss
   // Without a cut: depth D, at most 2^D - 1 rays a pixel.
   constexpr int kDepth = 10;
   const Scene whole = onion(20, kDepth, 0);
-  const Frame all = testing::traced(whole, make_camera(whole.camera, edge, edge, 1));
+  const Frame all = test::traced(whole, make_camera(whole.camera, edge, edge, 1));
   const auto secondary = [](const Frame& frame) {
     return frame.stats.rays.reflection + frame.stats.rays.refraction;
   };
@@ -116,7 +116,7 @@ TEST_CASE("MIR-4: rays double at each level, and what is cut off is what is miss
   add_lack(all);
   for (const double cut : {1e-2, 1e-3}) {
     const Scene scene = onion(20, 20, cut);
-    add_lack(testing::traced(scene, make_camera(scene.camera, edge, edge, 1)));
+    add_lack(test::traced(scene, make_camera(scene.camera, edge, edge, 1)));
     // 0.5^levels >= cut
     const auto prepared = raytrace::Prepared(scene);
     const double most = std::floor(std::log(cut) / std::log(0.5));

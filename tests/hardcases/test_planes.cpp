@@ -64,12 +64,12 @@ TEST_CASE("PLN-3: a plane's normal scaled by 2^k changes no bit of a picture") {
   const glm::dvec3 normal(0.03, 1, -0.1);
   const Scene scene = ball_on(normal);
   const Camera camera = make_camera(scene.camera, 80, 60, 1);
-  const Frame flat = testing::rastered(scene, camera), deep = testing::traced(scene, camera);
+  const Frame flat = test::rastered(scene, camera), deep = test::traced(scene, camera);
   std::uint64_t changed = 0, all = 0;
   for (int k = -40; k <= 40; k += 8) {
     const Scene scaled = ball_on(std::exp2(k) * normal);
-    changed += testing::differences(testing::rastered(scaled, camera), flat) != "";
-    changed += testing::differences(testing::traced(scaled, camera), deep) != "";
+    changed += test::differences(test::rastered(scaled, camera), flat) != "";
+    changed += test::differences(test::traced(scaled, camera), deep) != "";
     all += 2;
   }
   HardCase("PLN-3").none("pictures that a normal's scale 2^-40 to 2^40 changes in any bit", changed, all);

@@ -94,7 +94,7 @@ struct Apart {
   double share_over = 0;  // of pixels that differ by more than 5 %
 };
 Apart apart(const Scene& a, const Scene& b) {
-  const Frame p = testing::traced(a, camera_at(a)), q = testing::traced(b, camera_at(b));
+  const Frame p = test::traced(a, camera_at(a)), q = test::traced(b, camera_at(b));
   double difference = 0, sum = 0;
   std::uint64_t over = 0;
   for (std::size_t i = 0; i < p.pixels(); ++i) {
@@ -127,8 +127,7 @@ TEST_CASE("REF-2: glass of index 1 is not seen, before checkers and mirrors") {
   add_sphere(with, {{-1, 0, 1}, 0.8, nothing}, {});
   add_mesh(with, box, {.translate = {0.2, -0.3, 2}}, {});
   add_mesh(with, star, {.translate = {1.2, 0.2, 1}}, {});
-  const Frame a = testing::traced(without, square_camera(without)),
-              b = testing::traced(with, square_camera(with));
+  const Frame a = test::traced(without, square_camera(without)), b = test::traced(with, square_camera(with));
   Worst error;
   std::uint64_t over = 0, through = 0;
   for (std::size_t i = 0; i < a.pixels(); ++i) {
@@ -165,7 +164,7 @@ TEST_CASE("REF-4: glass that touches water, overlaps it, and leaves a gap") {
   nested.at_least("mean difference that such a film makes", film.mean, 0.02);
 
   std::uint64_t permuted = 0;
-  const auto colors = [](const Scene& scene) { return testing::traced(scene, camera_at(scene)).color; };
+  const auto colors = [](const Scene& scene) { return test::traced(scene, camera_at(scene)).color; };
   permuted += colors(touching) != colors(drink(0.9, 0.9, Order::others_last));
   permuted += colors(faceted_drink(Order::others_first)) != colors(faceted_drink(Order::others_last));
   nested.none("touching pictures that the order of the other objects changes in any bit", permuted, 2);

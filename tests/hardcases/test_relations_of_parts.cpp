@@ -9,7 +9,6 @@
 
 using namespace sidelight;
 using namespace sidelight::test;
-using namespace sidelight::testing;
 
 namespace {
 

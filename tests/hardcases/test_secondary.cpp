@@ -148,7 +148,7 @@ TEST_CASE("SEC-4: a glass ball on a floor, seen at the contact from outside and 
   for (const glm::dvec3& eye : {glm::dvec3(0.02, 1e-5, 0.01), glm::dvec3(0.3, 0.5, 0.1)}) {
     scene.camera.eye = eye;
     scene.camera.view_height = 2e-3 / glm::length(eye);  // 1e-3 around the contact
-    const Frame frame = testing::traced(scene, make_camera(scene.camera, tier_edge(), tier_edge(), 1));
+    const Frame frame = test::traced(scene, make_camera(scene.camera, tier_edge(), tier_edge(), 1));
     for (const glm::vec3& c : frame.color) bright += !(c.x < 1e3f);
     pixels += frame.pixels();
   }

@@ -33,7 +33,7 @@ struct LitBall {
 // 0 the two may disagree on its sign, but not on its size.
 void check_ball(const LitBall& lit, std::uint64_t& dark, std::uint64_t& pixels, Worst& error) {
   const Camera camera = square_camera(lit.scene);
-  const Frame frame = testing::traced(lit.scene, camera);
+  const Frame frame = test::traced(lit.scene, camera);
   const Light& light = lit.scene.lights[0];
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x) {
@@ -156,7 +156,7 @@ TEST_CASE("SHA-1: what a light on a surface shines on is lit, and the surface is
   // The floor itself: N.L is 0 on all of it.
   std::uint64_t lit_floor = 0, floor = 0;
   for (const LitBall* lit : {&on_plane, &on_edge, &on_vertex}) {
-    const Frame frame = testing::traced(lit->scene, square_camera(lit->scene));
+    const Frame frame = test::traced(lit->scene, square_camera(lit->scene));
     for (std::size_t i = 0; i < frame.pixels(); ++i) {
       if (frame.sample_primitive[i] == kNone || frame.sample_primitive[i] == lit->primitive) continue;
       ++floor;
@@ -207,11 +207,11 @@ TEST_CASE("SHA-2: no light leaves a closed body") {
       scene.lights.push_back(lamp(light, 1));
       scene.camera.eye = around(1, 4, 8);
       scene.camera.look_at = center;
-      const Frame frame = testing::traced(scene, square_camera(scene));
+      const Frame frame = test::traced(scene, square_camera(scene));
       for (const glm::vec3& c : frame.color) lit_pixels += c != glm::vec3(0);
       pixels += frame.pixels();
       // It is the body that keeps it dark.
-      const Frame flat = testing::rastered(scene, square_camera(scene));
+      const Frame flat = test::rastered(scene, square_camera(scene));
       CHECK(std::any_of(flat.color.begin(), flat.color.end(), [](const glm::vec3& c) { return c.x > 0; }));
     }
   const HardCase inside("SHA-2");
@@ -238,10 +238,9 @@ TEST_CASE("SHA-4: a light behind the surface adds nothing and costs no ray") {
       for (const Light& light : lights) {
         Scene behind = dark;
         behind.lights.push_back(light);
-        const Frame deep = testing::traced(behind, camera);
-        changed += testing::differences(deep, testing::traced(dark, camera)) != "";
-        changed +=
-            testing::differences(testing::rastered(behind, camera), testing::rastered(dark, camera)) != "";
+        const Frame deep = test::traced(behind, camera);
+        changed += test::differences(deep, test::traced(dark, camera)) != "";
+        changed += test::differences(test::rastered(behind, camera), test::rastered(dark, camera)) != "";
         shadow_rays += deep.stats.rays.shadow;
         pictures += 2;
       }
@@ -256,7 +255,7 @@ TEST_CASE("SHA-7: no false shadow from 1e-3 to 1e7 from the origin") {
   ShadowFaults all;
   for (double offset = 0; offset < 2e7; offset = offset == 0 ? 1e-3 : 10 * offset) {
     const Scene there = three_things(glm::dvec3(offset));
-    all.add(shadow_faults(testing::traced(there, square_camera(there)), square_camera(here),
+    all.add(shadow_faults(test::traced(there, square_camera(there)), square_camera(here),
                           [&](const glm::dvec3& p) { return here.lights[0].position - p; }));
   }
   const HardCase far("SHA-7");
@@ -274,7 +273,7 @@ TEST_CASE("SHA-8: a light of 1e14 at 1e7 is the sun") {
   };
   const Scene sunny = lit_by(sun(towards, 1.0 / 3));
   const Camera camera = square_camera(sunny);
-  const Frame right = testing::traced(sunny, camera);
+  const Frame right = test::traced(sunny, camera);
   ShadowFaults all;
   Worst error;
   std::uint64_t not_finite = 0;
@@ -282,7 +281,7 @@ TEST_CASE("SHA-8: a light of 1e14 at 1e7 is the sun") {
   for (const double reach : {1e7, 1e15}) {
     Light far = lamp(reach * glm::dvec3(1, 1, -1), reach * reach);
     far.attenuation = {0, 0, 1};
-    const Frame frame = testing::traced(lit_by(far), camera);
+    const Frame frame = test::traced(lit_by(far), camera);
     not_finite += !first_non_finite(frame).empty();
     all.add(shadow_faults(frame, camera, [&](const glm::dvec3&) { return towards; }));
     for (std::size_t i = 0; i < frame.pixels(); ++i)

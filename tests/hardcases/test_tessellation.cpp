@@ -8,7 +8,6 @@
 
 using namespace sidelight;
 using namespace sidelight::test;
-using namespace sidelight::testing;
 
 namespace {
 

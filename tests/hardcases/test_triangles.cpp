@@ -107,12 +107,11 @@ TEST_CASE("TRI-4: triangles without area change no bit of a picture") {
   for (const Triangle& t : std::span(with.triangles).last(4)) CHECK(t.degenerate);
   const Camera camera = make_camera(without.camera, 160, 120, 1);
   const HardCase picture("TRI-4");
-  picture.holds(
-      "the z-buffer's picture with and without them is the same",
-      testing::differences(testing::rastered(with, camera), testing::rastered(without, camera)) == "");
-  const Frame deep = testing::traced(with, camera);
+  picture.holds("the z-buffer's picture with and without them is the same",
+                test::differences(test::rastered(with, camera), test::rastered(without, camera)) == "");
+  const Frame deep = test::traced(with, camera);
   picture.holds("the tracer's picture with and without them is the same",
-                testing::differences(deep, testing::traced(without, camera)) == "");
+                test::differences(deep, test::traced(without, camera)) == "");
   picture.holds("no number in it is not finite", first_non_finite(deep).empty());
   // The sliver of the catalogue, which rounding may give an area.
   const glm::dvec3 v{-1113.45459, -79.049614, -56.2431908};

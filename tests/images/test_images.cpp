@@ -20,7 +20,7 @@
 #include "tests/agreement/pictures.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

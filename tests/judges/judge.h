@@ -23,7 +23,7 @@
 #include "tests/agreement/pictures.h"
 #include "tests/judges/povray.h"
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 inline constexpr int kClose = 16, kVisible = 257;  // of 65535; 257 is 1/255
 
@@ -135,4 +135,4 @@ class Judge {
   std::shared_ptr<const raytrace::Prepared> prepared_;
 };
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

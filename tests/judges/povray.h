@@ -17,7 +17,7 @@
 #include "tests/picture/folder.h"
 #include "tests/viewer/program.h"
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 enum class PovQuality { local = 3, full = 9 };  // +Q
 
@@ -85,4 +85,4 @@ inline PovPicture render_pov(const Scene& scene, PovQuality quality) {
   return render_pov(pov_text(scene), pov_options(scene), quality);
 }
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

@@ -12,7 +12,7 @@
 #include "tests/judges/judge.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 using test::tier_list;
 using test::tier_value;
 

@@ -8,7 +8,7 @@
 #include "tests/judges/judge.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

@@ -22,7 +22,7 @@
 #include "tests/support/approx.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 using glm::dvec3;
 using test::near;
 

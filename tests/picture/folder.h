@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 class TemporaryFolder {
  public:
@@ -44,4 +44,4 @@ inline void write_bytes(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

@@ -8,7 +8,7 @@
 #include "common/picture/frame.h"
 #include "common/scene/scene.h"
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 inline RenderOptions options_with(LayerMask layers, bool keep_samples = false) {
   RenderOptions options;
@@ -50,4 +50,4 @@ inline void fill_with_noise(Frame& frame, unsigned seed) {
   for (std::uint32_t& id : frame.primitive_id) id = static_cast<std::uint32_t>(generator());
 }
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

@@ -13,7 +13,7 @@
 #include "tests/picture/folder.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "tests/picture/frames.h"
 
 using namespace sidelight;
-using sidelight::testing::options_with;
+using sidelight::test::options_with;
 
 TEST_CASE("a frame holds what was asked for and nothing else") {
   const Frame plain = make_frame(7, 5, 2, {});

@@ -12,7 +12,7 @@
 #include "tests/picture/frames.h"
 
 using namespace sidelight;
-using sidelight::testing::options_with;
+using sidelight::test::options_with;
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "tests/picture/frames.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

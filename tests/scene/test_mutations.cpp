@@ -20,7 +20,7 @@
 #include "tests/support/random.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 using test::error_of;
 using test::kCamera;
 using test::kMaterial;

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 inline std::string utf8(char32_t code) {
   const auto byte = [](char32_t bits) { return static_cast<char>(static_cast<unsigned char>(bits)); };
@@ -53,4 +53,4 @@ inline std::string harm_in(const std::string& text) {
   return {};
 }
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

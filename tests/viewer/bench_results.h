@@ -8,7 +8,7 @@
 
 #include "viewer/bench/result.h"
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 // A disc on a slope of grey; `shift` moves it, so that different points have different pictures.
 inline Image8 small_picture(int width, int height, int shift) {
@@ -119,4 +119,4 @@ inline BenchResult bench_result(int scenes = 1, int width = 64, int height = 48)
   return result;
 }
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

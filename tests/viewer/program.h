@@ -19,7 +19,7 @@
 
 #include "tests/picture/folder.h"
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 using Arguments = std::vector<std::string>;
 
@@ -167,4 +167,4 @@ inline std::vector<std::string> lines(const std::string& text) {
   return out;
 }
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

@@ -15,7 +15,7 @@
 #include "tests/viewer/program.h"
 #include "viewer/window/session.h"
 
-namespace sidelight::testing {
+namespace sidelight::test {
 
 inline constexpr Rect kPanel{24, 90, 24 + 320, 90 + 240};
 
@@ -62,4 +62,4 @@ inline void check_headless(const Session& session) {
   CHECK(same_bits(shown.traced->color, render_pictures(task).traced->color));
 }
 
-}  // namespace sidelight::testing
+}  // namespace sidelight::test

@@ -7,7 +7,7 @@
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 using nlohmann::json;
 
 namespace {

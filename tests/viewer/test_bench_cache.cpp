@@ -8,7 +8,7 @@
 #include "viewer/bench/reference.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

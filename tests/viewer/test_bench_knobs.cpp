@@ -8,7 +8,7 @@
 #include "viewer/bench/knobs.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

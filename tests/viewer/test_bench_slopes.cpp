@@ -11,7 +11,7 @@
 #include "viewer/bench/sweep.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "viewer/report/bench_words.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 using test::contains;
 
 namespace {

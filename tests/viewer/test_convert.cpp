@@ -2,7 +2,7 @@
 // sidelight convert as its users meet it.
 #include "tests/viewer/program.h"
 
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 TEST_CASE("convert: a file, and nothing to say where POV-Ray can express it all") {
   const Workplace here;

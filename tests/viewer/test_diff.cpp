@@ -10,7 +10,7 @@
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 using Json = nlohmann::json;
 
 namespace {

@@ -14,7 +14,7 @@
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "viewer/report/plot_svg.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 using test::contains;
 using test::count;
 

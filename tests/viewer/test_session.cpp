@@ -9,7 +9,7 @@
 #include "tests/viewer/session.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

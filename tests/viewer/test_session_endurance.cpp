@@ -17,7 +17,7 @@
 #include "viewer/window/offscreen.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 namespace fs = std::filesystem;
 
 namespace {

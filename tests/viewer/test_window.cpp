@@ -13,7 +13,7 @@
 #include "viewer/window/window_panels.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "viewer/window/offscreen.h"
 
 using namespace sidelight;
-using namespace sidelight::testing;
+using namespace sidelight::test;
 
 #ifdef SIDELIGHT_HAVE_OSMESA
 
