@@ -1,56 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/llvmpipe.h"
 
-#include "viewer/window/gl.h"  // before osmesa.h, whose header of OpenGL leaves out what this one has
-
-#include <GL/osmesa.h>
-
 #include <array>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/bench/llvmpipe_gl.h"
+
 namespace sidelight::bench {
 namespace {
-
-// What the viewer's table lacks.
-#define BENCH_GL_FUNCTIONS(F)                                  \
-  F(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
-  F(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)               \
-  F(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
-  F(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                     \
-  F(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                   \
-  F(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)           \
-  F(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)         \
-  F(PFNGLDEPTHFUNCPROC, DepthFunc)                             \
-  F(PFNGLDRAWELEMENTSPROC, DrawElements)                       \
-  F(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
-  F(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
-  F(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)               \
-  F(PFNGLGETSTRINGPROC, GetString)                             \
-  F(PFNGLREADPIXELSPROC, ReadPixels)                           \
-  F(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)         \
-  F(PFNGLUNIFORM1FPROC, Uniform1f)                             \
-  F(PFNGLUNIFORM1UIPROC, Uniform1ui)                           \
-  F(PFNGLUNIFORM3FVPROC, Uniform3fv)                           \
-  F(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)
-
-struct BenchGl : Gl {
-#define BENCH_GL_MEMBER(type, name) type name = nullptr;
-  BENCH_GL_FUNCTIONS(BENCH_GL_MEMBER)
-#undef BENCH_GL_MEMBER
-};
-
-BenchGl load_bench_gl() {
-  BenchGl gl{load_gl(OSMesaGetProcAddress)};
-#define BENCH_GL_FETCH(type, name) gl.name = reinterpret_cast<type>(OSMesaGetProcAddress("gl" #name));
-  BENCH_GL_FUNCTIONS(BENCH_GL_FETCH)
-#undef BENCH_GL_FETCH
-  return gl;
-}
 
 const char* const kVertexShader = R"(#version 330 core
 layout(location = 0) in vec3 position;
@@ -129,37 +90,9 @@ std::array<float, 16> clip_from_eye(const Camera& camera) {
   return m;
 }
 
-OSMesaContext make_context(int threads) {
-  ::setenv("GALLIUM_DRIVER", "llvmpipe", 1);
-  ::setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), 1);
-  const int attributes[] = {OSMESA_FORMAT,
-                            OSMESA_RGBA,
-                            OSMESA_PROFILE,
-                            OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION,
-                            3,
-                            OSMESA_CONTEXT_MINOR_VERSION,
-                            3,
-                            0};
-  OSMesaContext context = OSMesaCreateContextAttribs(attributes, nullptr);
-  if (!context) throw std::runtime_error("OSMesa has no OpenGL 3.3 core context");
-  return context;
-}
-
 }  // namespace
 
 struct Llvmpipe::State {
-  // The pictures are drawn elsewhere: OSMesa's own buffer is a token that makes the context current.
-  struct Current {
-    OSMesaContext context;
-    std::array<unsigned char, 4> pixel{};
-    explicit Current(int threads) : context(make_context(threads)) {
-      if (OSMesaMakeCurrent(context, pixel.data(), GL_UNSIGNED_BYTE, 1, 1) == 0)
-        throw std::runtime_error("OSMesa cannot draw");
-    }
-    ~Current() { OSMesaDestroyContext(context); }
-  };
-
   State(const Scene& s, int threads)
       : scene(s),
         current(threads),
@@ -171,7 +104,7 @@ struct Llvmpipe::State {
         ids(make_program(gl, kVertexShader, kIdShader)) {}
 
   const Scene& scene;
-  Current current;
+  LlvmpipeContext current;
   BenchGl gl;
   GlObject array, vertices, indices, phong, ids;
   std::vector<GlObject> buffers;  // of the size
