@@ -8,17 +8,15 @@
 // A layer's light is scaled by its opacity and by what the layers above let through: the factors 2 and 4 undo that.
 #include "common/scene/pov.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 #include <set>
 #include <utility>
 
 #include "common/model/place.h"
 #include "common/scene/camera.h"
+#include "common/scene/pov_mesh.h"
 
 namespace sidelight {
 namespace {
@@ -31,8 +29,7 @@ constexpr double kExtent = 1024;
 // Where a highlight's tint lacks a channel, this much of it stays: the pigment is divided by the tint.
 constexpr double kLeastTint = 1e-6;
 
-std::string text(const dvec3& v) { return fmt::format("<{:.17g},{:.17g},{:.17g}>", v.x, v.y, v.z); }
-std::string rgb(const dvec3& v) { return "rgb " + text(v); }
+std::string rgb(const dvec3& v) { return "rgb " + pov_vector(v); }
 double largest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
 bool grey(const dvec3& v) { return v.x == v.y && v.y == v.z; }
 
@@ -70,15 +67,10 @@ double extent(const Scene& scene) {
   return largest(most);
 }
 
-// Indices into the scene's positions or normals, numbered anew.
-using Numbers = std::map<std::uint32_t, std::size_t>;
-
-bool is_flat(const Triangle* face) { return face->normal[0] == kNone; }
-
 class Writer {
  public:
   Writer(const Scene& scene, const std::function<void(std::string_view)>& append)
-      : scene_(scene), append_(append), scale_(std::exp2(std::floor(std::log2(kExtent / extent(scene))))) {}
+      : scene_(scene), out_(append, std::exp2(std::floor(std::log2(kExtent / extent(scene))))) {}
 
   void head();
   void lights();
@@ -87,20 +79,16 @@ class Writer {
  private:
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args) {
-    append_(fmt::format(format, std::forward<Args>(args)...) + "\n");
+    out_.line(format, std::forward<Args>(args)...);
   }
-  std::string place(const dvec3& point) const { return text(scale_ * point); }
+  std::string place(const dvec3& point) const { return out_.place(point); }
   void light(const Light& light, const dvec3& tint);
   void layers(const std::string& keyword, const Material& material, const Terms& terms, const dvec3& through);
   void object(std::uint32_t index);
   void shape(std::uint32_t index, std::uint32_t material);
-  void mesh(const Object& object, std::uint32_t material);
-  void normal_vectors(const std::vector<const Triangle*>& faces, const Numbers& normals);
-  void normal_indices(const std::vector<const Triangle*>& faces, const Numbers& normals);
 
   const Scene& scene_;
-  const std::function<void(std::string_view)>& append_;
-  double scale_;  // POV-Ray's units to one of ours
+  PovText out_;
 };
 
 void Writer::head() {
@@ -111,7 +99,7 @@ void Writer::head() {
   line("// All of the light:  {} +Q9", command);
   line("// Local light only:  {} +Q3", command);
   for (const PovLimit& limit : pov_limits(scene_)) line("// Not the same: {}", printable(limit.text, 2000));
-  line("// One unit of the scene is {} here: POV-Ray's tolerances are absolute.", scale_);
+  line("// One unit of the scene is {} here: POV-Ray's tolerances are absolute.", out_.scale());
   line("#version 3.7;");
   line("global_settings {{ assumed_gamma 1 ambient_light rgb 1 max_trace_level {} adc_bailout 0 }}",
        std::min(scene_.trace.depth, kPovMostLevels));
@@ -121,7 +109,7 @@ void Writer::head() {
   const Camera camera = make_camera(scene_.camera, scene_.width, scene_.height, 1);
   const double aspect = static_cast<double>(scene_.width) / scene_.height;
   line("camera {{ perspective location {} direction {} right {} up {} }}", place(camera.eye),
-       text(camera.forward), text(aspect * camera.right), text(camera.up));
+       pov_vector(camera.forward), pov_vector(aspect * camera.right), pov_vector(camera.up));
 }
 
 // The light of one lamp, tinted where only objects of one tint see it.
@@ -129,8 +117,9 @@ void Writer::light(const Light& light, const dvec3& tint) {
   const dvec3 color = light.intensity * tint;
   if (light.directional) {
     // Only its distance matters, and only to shadows: beyond all that POV-Ray sees.
-    const dvec3 to = scale_ * scene_.camera.eye - 1e8 * light.direction;
-    line("light_source {{ {} {} parallel point_at {} }}", text(to), rgb(color), place(scene_.camera.eye));
+    const dvec3 to = out_.scale() * scene_.camera.eye - 1e8 * light.direction;
+    line("light_source {{ {} {} parallel point_at {} }}", pov_vector(to), rgb(color),
+         place(scene_.camera.eye));
     return;
   }
   const Attenuation& a = light.attenuation;
@@ -144,7 +133,7 @@ void Writer::light(const Light& light, const dvec3& tint) {
   const double q0 = a.q0 > 0 ? a.q0 : q * std::pow(1e-5 * extent(scene_), power);
   const double distance = std::pow(q0 / q, 1.0 / power);
   line("light_source {{ {} {} fade_distance {:.17g} fade_power {} }}", place(light.position),
-       rgb(color / (2 * q0)), scale_ * distance, power);
+       rgb(color / (2 * q0)), out_.scale() * distance, power);
 }
 
 void Writer::lights() {
@@ -221,70 +210,13 @@ void Writer::shape(std::uint32_t index, std::uint32_t material) {
   const Object& object = scene_.objects[index];
   if (object.kind == ObjectKind::sphere) {
     const Sphere& sphere = scene_.spheres[object.first];
-    line("sphere {{ {}, {:.17g} }}", place(sphere.center), scale_ * sphere.radius);
+    line("sphere {{ {}, {:.17g} }}", place(sphere.center), out_.scale() * sphere.radius);
   } else if (object.kind == ObjectKind::plane) {
     const Plane& plane = scene_.planes[object.first];
-    line("plane {{ {}, {:.17g} }}", text(plane.normal), scale_ * dot(plane.normal, plane.point));
+    line("plane {{ {}, {:.17g} }}", pov_vector(plane.normal), out_.scale() * dot(plane.normal, plane.point));
   } else {
-    mesh(object, material);
+    write_pov_mesh(out_, scene_, object, material);
   }
-}
-
-// Where some faces are smooth, a flat one has three times its own normal, after all others.
-void Writer::normal_vectors(const std::vector<const Triangle*>& faces, const Numbers& normals) {
-  const auto flat = std::count_if(faces.begin(), faces.end(), is_flat);
-  line("normal_vectors {{ {}", normals.size() + static_cast<std::size_t>(flat));
-  for (const auto& [normal, number] : normals) line(",{}", text(scene_.normals[normal]));
-  for (const Triangle* face : faces) {
-    if (!is_flat(face)) continue;
-    const dvec3 corner = scene_.positions[face->vertex[0]];
-    line(",{}", text(glm::normalize(glm::cross(scene_.positions[face->vertex[1]] - corner,
-                                               scene_.positions[face->vertex[2]] - corner))));
-  }
-  line("}}");
-}
-
-void Writer::normal_indices(const std::vector<const Triangle*>& faces, const Numbers& normals) {
-  line("normal_indices {{ {}", faces.size());
-  for (std::size_t next_flat = normals.size(); const Triangle* face : faces) {
-    if (is_flat(face))
-      line(",<{0},{0},{0}>", next_flat++);
-    else
-      line(",<{},{},{}>", normals.at(face->normal[0]), normals.at(face->normal[2]),
-           normals.at(face->normal[1]));
-  }
-  line("}}");
-}
-
-// The triangles of one material. They go the other way round: POV-Ray's handedness makes that the outside, which
-// decides on interior_texture.
-void Writer::mesh(const Object& object, std::uint32_t material) {
-  Numbers vertices, normals;
-  std::vector<const Triangle*> faces;
-  for (std::uint32_t i = object.first; i < object.first + object.count; ++i) {
-    const Triangle& triangle = scene_.triangles[i];
-    if (triangle.degenerate || triangle.material != material) continue;
-    faces.push_back(&triangle);
-    for (const std::uint32_t vertex : triangle.vertex) vertices.emplace(vertex, 0);
-    for (const std::uint32_t normal : triangle.normal)
-      if (normal != kNone) normals.emplace(normal, 0);
-  }
-  for (std::size_t next = 0; auto& [vertex, number] : vertices) number = next++;
-  for (std::size_t next = 0; auto& [normal, number] : normals) number = next++;
-
-  line("mesh2 {{");
-  line("vertex_vectors {{ {}", vertices.size());
-  for (const auto& [vertex, number] : vertices) line(",{}", place(scene_.positions[vertex]));
-  line("}}");
-  if (!normals.empty()) normal_vectors(faces, normals);
-  line("face_indices {{ {}", faces.size());
-  for (const Triangle* face : faces)
-    line(",<{},{},{}>", vertices[face->vertex[0]], vertices[face->vertex[2]], vertices[face->vertex[1]]);
-  line("}}");
-  if (!normals.empty()) normal_indices(faces, normals);
-  // Whether the eye is inside is all that POV-Ray asks of it.
-  if (object.closed) line("inside_vector <0.36,0.48,0.8>");
-  line("}}");
 }
 
 }  // namespace

@@ -3,124 +3,23 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
-#include <glm/trigonometric.hpp>
 
 #include "common/float_state.h"
-#include "common/scene/build.h"
 #include "common/scene/step_modes.h"
 #include "common/scene/toml_objects.h"
+#include "common/scene/toml_parts.h"
 #include "common/scene/toml_set.h"
 #include "common/scene/toml_source.h"
 #include "common/scene/toml_values.h"
-#include "common/scene/unit_vector.h"
 
 namespace sidelight {
 namespace scene_file {
 namespace {
 
-constexpr int kMaxDepth = 1000, kMaxPictureEdge = 65535;
 constexpr std::size_t kMaxSteps = 100;  // each is checked by reading the scene once more
-constexpr Range kFieldOfView{1e-28, 179.999999999999, "an angle in degrees above 0 and below 180"};
-constexpr Range kShininess{0, 1e6, "a number from 0 to 1e6"};
-constexpr Range kIor{0.25, 4, "a number from 0.25 to 4"};
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
-
-// --- Settings of the scene ---------------------------------------------------------------------------------------
-
-void read_picture(const Value& value, Scene& scene) {
-  const TableReader table(value.document, read_table(value), "[picture]",
-                          {.required = {}, .optional = {"size"}});
-  const auto size = table.find("size");
-  if (!size) return;
-  const toml::array& edges = read_array(*size, 2, "[width, height]");
-  scene.width = read_integer(size->element(edges[0]), 1, kMaxPictureEdge);
-  scene.height = read_integer(size->element(edges[1]), 1, kMaxPictureEdge);
-}
-
-void read_camera(const Value& value, CameraSettings& camera) {
-  constexpr std::array<std::string_view, 2> kHeights = {"vertical_fov", "view_height"};
-  const TableReader table(
-      value.document, read_table(value), "[camera]",
-      {.required = {"eye", "look_at"}, .optional = {"up", "vertical_fov", "view_height"}});
-  camera.eye = read_position(table["eye"]);
-  camera.look_at = read_position(table["look_at"]);
-  if (camera.eye == camera.look_at) table["look_at"].fail("a point other than the eye");
-  if (const auto up = table.find("up")) camera.up = read_direction(*up);
-  if (table.only_one_of(kHeights) == "view_height")
-    camera.view_height = read_number(table["view_height"], kLength);
-  else
-    camera.view_height = 2 * std::tan(glm::radians(read_number(table["vertical_fov"], kFieldOfView)) / 2);
-}
-
-void read_trace(const Value& value, TraceSettings& trace) {
-  const TableReader table(value.document, read_table(value), "[trace]",
-                          {.required = {},
-                           .optional = {"depth", "contribution_cut", "secondary_attenuation", "shadows",
-                                        "reflection", "refraction"}});
-  if (const auto v = table.find("depth")) trace.depth = read_integer(*v, 1, kMaxDepth);
-  if (const auto v = table.find("contribution_cut")) trace.contribution_cut = read_number(*v, kFraction);
-  if (const auto v = table.find("secondary_attenuation")) trace.secondary_attenuation = read_attenuation(*v);
-  if (const auto v = table.find("shadows")) trace.shadows = read_flag(*v);
-  if (const auto v = table.find("reflection")) trace.reflection = read_flag(*v);
-  if (const auto v = table.find("refraction")) trace.refraction = read_flag(*v);
-}
-
-// --- Lights and materials ----------------------------------------------------------------------------------------
-
-Light read_light(const Document& document, const toml::table& source) {
-  constexpr std::array<std::string_view, 2> kPlaces = {"position", "direction"};
-  const TableReader table(document, source, "[[light]]",
-                          {.required = {"intensity"}, .optional = {"position", "direction", "attenuation"}});
-  Light light;
-  light.directional = table.only_one_of(kPlaces) == "direction";
-  if (light.directional)
-    light.direction = unit_or_zero(read_direction(table["direction"]));
-  else
-    light.position = read_position(table["position"]);
-  light.intensity = read_color(table["intensity"]);
-  if (const auto attenuation = table.find("attenuation")) {
-    if (light.directional) attenuation->fail("none: light from a direction has no distance to fall off with");
-    light.attenuation = read_attenuation(*attenuation);
-  }
-  return light;
-}
-
-Material read_material(const Value& value) {
-  const TableReader table(value.document, read_table(value),
-                          "[material." + printable(std::string(value.name), 60) + "]",
-                          {.required = {},
-                           .optional = {"ambient", "diffuse", "specular", "shininess", "local", "reflect",
-                                        "refract", "ior", "casts_shadow"}});
-  Material material;
-  material.name = value.name;
-  if (const auto v = table.find("ambient")) material.ambient = read_color(*v);
-  if (const auto v = table.find("diffuse")) material.diffuse = read_color(*v);
-  if (const auto v = table.find("specular")) material.specular = read_color(*v);
-  if (const auto v = table.find("shininess")) material.shininess = read_number(*v, kShininess);
-  if (const auto v = table.find("local")) material.local = read_color(*v);
-  if (const auto v = table.find("reflect")) material.reflect = read_color(*v);
-  if (const auto v = table.find("refract")) material.refract = read_color(*v);
-  if (const auto v = table.find("ior")) material.ior = read_number(*v, kIor);
-  if (const auto v = table.find("casts_shadow")) material.casts_shadow = read_flag(*v);
-  return material;
-}
-
-// Into the scene in the order of the file, and their numbers by name.
-MaterialNames read_materials(const Value& value, Scene& scene) {
-  const toml::table& table = read_table(value);
-  std::vector<std::string_view> in_order;
-  for (const auto& [name, node] : table) in_order.push_back(name.str());
-  std::ranges::stable_sort(in_order, {}, [&](std::string_view name) {
-    return file_order(value.document.where(*table.get(name)));
-  });
-  MaterialNames names;
-  for (const std::string_view name : in_order)
-    names.emplace(name, add_material(scene, read_material({value.document, *table.get(name), name})));
-  return names;
-}
 
 // --- Objects -----------------------------------------------------------------------------------------------------
 
@@ -163,8 +62,8 @@ std::vector<ObjectEntry> object_entries(const TableReader& root, const ObjectFil
 // --- The whole file ----------------------------------------------------------------------------------------------
 
 // All of a scene but its steps and hash; `files_read` receives the mesh files.
-Scene read_scene(const Document& document, const toml::table& source, const ObjectFilter& wanted, Effort& effort,
-                 std::vector<std::string>& files_read) {
+Scene read_scene(const Document& document, const toml::table& source, const ObjectFilter& wanted,
+                 Effort& effort, std::vector<std::string>& files_read) {
   const TableReader root(document, source, "the scene",
                          {.required = {"camera"},
                           .optional = {"title", "lesson", "background", "ambient", "picture", "trace",
