@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/picture/signed_difference.h"
+#include "viewer/report/embedded_picture.h"
 #include "viewer/report/highlights.h"
 #include "viewer/report/html.h"
 
@@ -14,34 +15,7 @@ namespace {
 
 using Picture = std::vector<glm::vec3>;
 
-constexpr std::size_t kMostLesson = 4000;                  // bytes shown
-constexpr std::size_t kMostPixels = std::size_t{1} << 22;  // of an embedded picture
-
-// By which whole factor pictures are reduced, so that a page of a dozen of them still opens.
-int reduction(const Frame& frame) {
-  int factor = 1;
-  while (frame.pixels() / static_cast<std::size_t>(factor * factor) > kMostPixels) ++factor;
-  return factor;
-}
-
-// For the page: blocks of factor x factor pixels become their mean; what is left over at the edges is cut off.
-Image8 embedded(const Picture& picture, const Frame& frame) {
-  const int factor = reduction(frame);
-  if (factor == 1) return to_image8(picture, frame.width(), frame.height());
-  const int width = std::max(1, frame.width() / factor), height = std::max(1, frame.height() / factor);
-  Picture reduced;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      PixelMean mean;
-      int count = 0;
-      for (int j = y * factor; j < std::min((y + 1) * factor, frame.height()); ++j)
-        for (int i = x * factor; i < std::min((x + 1) * factor, frame.width()); ++i, ++count)
-          mean.add(picture[frame.index(frame.window.x0 + i, frame.window.y0 + j)]);
-      reduced.push_back(mean.mean(count));
-    }
-  }
-  return to_image8(reduced, width, height);
-}
+constexpr std::size_t kMostLesson = 4000;  // bytes shown
 
 Html color_swatch(const glm::vec3& linear) {
   return html("<span class=\"swatch\" style=\"background:#{:02x}{:02x}{:02x}\"></span>",
@@ -114,14 +88,14 @@ mirrors and glass below explain it: 0 visibility mismatches, 0 unexplained of {}
 
 Html two_pictures(const CompareReport& report) {
   const Figure left{
-      embedded(report.rastered.color, report.rastered), "The z-buffer's picture of the scene",
+      embedded_picture(report.rastered.color, report.rastered), "The z-buffer's picture of the scene",
       html("<b>Z-buffer.</b> Each object lit as if it were alone: ambient, diffuse and specular light.")};
   const Figure right{
-      embedded(report.traced.color, report.traced), "The ray tracer's picture of the scene",
+      embedded_picture(report.traced.color, report.traced), "The ray tracer's picture of the scene",
       html(
           "<b>Ray tracer.</b> The same surfaces and the same local light, with shadows, mirrors and glass.")};
   Html note;
-  if (const int factor = reduction(report.traced); factor > 1)
+  if (const int factor = embedding_reduction(report.traced); factor > 1)
     note = html(
         R"(<p class="quiet">All pictures of this page are reduced: {0}×{0} pixels became one. The folder it was
 written to holds them whole.</p>
@@ -162,14 +136,14 @@ Html differences(const CompareReport& report) {
     legend += html(" {}{}", color_swatch(term.hue), term.name);
   }
   const Figure signed_picture{
-      embedded(signed_difference(report.rastered, report.traced), report.traced),
+      embedded_picture(signed_difference(report.rastered, report.traced), report.traced),
       "The signed difference of the two pictures",
       html(
           R"(<b>Signed difference,</b> ray tracer minus z-buffer, in linear luminance: yellow where the ray tracer is
 brighter, violet where it is darker, grey where both are equal. Half the colour stands for ¼, the full colour for 1 and
 more.)")};
   const Figure cause_picture{
-      embedded(cause_map(report.rastered, report.traced), report.traced),
+      embedded_picture(cause_map(report.rastered, report.traced), report.traced),
       "The cause map: for each pixel that differs, its main cause",
       html(
           R"(<b>Cause map.</b>{}: the hue is the cause that weighs most, the brightness is how much the pictures differ.
@@ -196,13 +170,13 @@ Html rastered_step(const CompareReport& report) {
   Html parts;
   for (const Layer layer : {Layer::ambient, Layer::diffuse, Layer::specular}) {
     const std::string name(kLayerNames[static_cast<std::size_t>(layer)]);
-    parts += figure_html({embedded(report.rastered.layer(layer), report.rastered),
+    parts += figure_html({embedded_picture(report.rastered.layer(layer), report.rastered),
                           "The " + name + " part of R", html("{}", name)});
   }
   return step(html("<h3>R</h3><p>The z-buffer's picture, itself a sum: R = ambient + diffuse + specular.</p>"
                    "<div class=\"terms\">{}</div>",
                    parts),
-              {embedded(report.rastered.color, report.rastered), "R, the z-buffer's picture",
+              {embedded_picture(report.rastered.color, report.rastered), "R, the z-buffer's picture",
                html("<b>R</b>, the z-buffer's picture: where the account begins.")});
 }
 
@@ -215,11 +189,11 @@ Html term_step(const CompareReport& report, const Term& term, const Picture& sum
   if (term.cause.pixels == 0)
     shown += html("<p>Zero in every pixel of this picture: nothing changes.</p>");
   else
-    shown += figure_html({embedded(report.traced.layer(term.layer), report.traced),
+    shown += figure_html({embedded_picture(report.traced.layer(term.layer), report.traced),
                           fmt::format("The {} term alone", term.name),
                           html("{}. {} pixels, energy {:.4g}.", term.what, Html{grouped(term.cause.pixels)},
                                term.cause.energy)});
-  return step(shown, {embedded(sum, report.traced), fmt::format("The sum {}", term.sum), caption});
+  return step(shown, {embedded_picture(sum, report.traced), fmt::format("The sum {}", term.sum), caption});
 }
 
 Html ledger(const CompareReport& report) {

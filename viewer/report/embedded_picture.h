@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// A frame's pictures as a page embeds them: of few enough pixels that a page of a dozen of them still opens.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/picture/frame.h"
+#include "common/picture/srgb.h"
+
+namespace sidelight {
+
+// By which whole factor the frame's pictures are reduced, across and down, to at most 2^22 pixels.
+int embedding_reduction(const Frame& frame);
+
+// One of its pictures: blocks of factor x factor pixels become their mean; what is left over at the edges is cut off.
+Image8 embedded_picture(const std::vector<glm::vec3>& picture, const Frame& frame);
+
+}  // namespace sidelight
