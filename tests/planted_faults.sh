@@ -41,7 +41,12 @@ configure() {
     -D SIDELIGHT_TESTS=ON --log-level=NOTICE
 }
 
-build() { cmake --build "$objects" -j "$(nproc)" --target sidelight sidelight_tests >"$work/build.log" 2>&1; }
+# What check $1 runs, and no more.
+build() {
+  local target=sidelight_tests
+  [[ $1 != compare ]] || target=sidelight
+  cmake --build "$objects" -j "$(nproc)" --target "$target" >"$work/build.log" 2>&1
+}
 
 # Runs a check; its exit code is 0 where all is well, 1 where a fault was caught, anything else where the check itself
 # broke down.
@@ -70,7 +75,7 @@ plant() {
 verdict() {
   local file="$tree/$1" code=0
   plant "$file" "$2" "$3" || { echo "MISSED: the source text is not there exactly once"; return; }
-  if build; then check "$4" || code=$?; else code=-1; fi
+  if build "$4"; then check "$4" || code=$?; else code=-1; fi
   cp -- "$file.whole" "$file" && rm -- "$file.whole"
   case $code in
     1) echo caught ;;
@@ -96,18 +101,30 @@ split() {
   done
 }
 
+# The list in another order: the faults of one file together, and last the file that is part of most objects. These are
+# compiled anew for each of its faults, and once more when the next file's turn comes.
+by_cost() {
+  local line
+  ninja -C "$objects" -t deps >"$work/deps"
+  while IFS= read -r line; do
+    split "$line"
+    printf '%4d %s|%s\n' "$(grep -cF -e "/${field[1]:-}" "$work/deps")" "${field[1]:-}" "$line"
+  done <"$work/faults" | LC_ALL=C sort -s -t '|' -k 1,1 | cut -d '|' -f 2-
+}
+
 mkdir -p -- "$tree"
 copy_source
 configure >"$work/build.log"
 grep -v -e '^#' -e '^$' "$root/tests/planted_faults.txt" | grep -F -e "${1:-}" >"$work/faults"
 
 printf '%-44s %-52s %s\n' fault "to be caught by" verdict
-build || { tail -n 20 "$work/build.log"; exit 1; }
+build all || { tail -n 20 "$work/build.log"; exit 1; }   # the tests, whose build is the program's too
 sed 's/.* | //' "$work/faults" | sort -u >"$work/checks"
 while IFS= read -r name; do
   if check "$name"; then row none "$name" fine; else row none "$name" "FAILED without a fault"; fi
 done <"$work/checks"
 
+by_cost >"$work/in_order"
 while IFS= read -r line; do
   split "$line"
   if ((${#field[@]} == 5)); then
@@ -115,7 +132,7 @@ while IFS= read -r line; do
   else
     row "$line" "" "MISSED: ${#field[@]} fields instead of 5"
   fi
-done <"$work/faults"
+done <"$work/in_order"
 
 echo "$passed passed, $failed failed"
 ((failed == 0))
