@@ -18,27 +18,40 @@ seeds="$build/seeds" found="$build/found"
 mkdir -p -- "$found"
 "$build/tests/fuzz/fuzz_seeds" "$seeds"
 
-passed=0 failed=0
-for target in scene mesh material picture; do
-  corpus="$build/corpus/$target"
+# Fuzzes target $1 and says what came of it.
+fuzz() {
+  local target=$1 corpus="$build/corpus/$1" log="$found/$1.log"
   mkdir -p -- "$corpus"
   # Long inputs only slow the search: the seeds' own lengths bound them. A reader may take 4 GB and a minute, with
   # sanitizers, for the largest scene it allows.
-  options=(-max_total_time="$seconds" -timeout=60 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0
+  local options=(-max_total_time="$seconds" -timeout=60 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0
     -artifact_prefix="$found/$target-")
   case $target in
     scene) options+=(-dict="$root/tests/fuzz/scene.dict") ;;
     mesh | material) options+=(-dict="$root/tests/fuzz/mesh.dict") ;;
   esac
-  log="$found/$target.log"
   if "$build/tests/fuzz/fuzz_$target" "${options[@]}" "$corpus" "$seeds/$target" >"$log" 2>&1; then
     echo "$target: $(sed -nE 's/^stat::number_of_executed_units: *//p' "$log") inputs"
-    passed=$((passed + 1))
   else
     tail -n 40 -- "$log"
     echo "FAILED: $target; repeat with $build/tests/fuzz/fuzz_$target FILE, FILE one of $found/$target-*"
-    failed=$((failed + 1))
+    return 1
   fi
+}
+
+# Each has one thread: two at a time, where there are two cores.
+passed=0 failed=0
+targets=(scene mesh material picture)
+at_once=$(($(nproc) > 1 ? 2 : 1))
+for ((first = 0; first < ${#targets[@]}; first += at_once)); do
+  running=()
+  for target in "${targets[@]:first:at_once}"; do
+    fuzz "$target" &
+    running+=($!)
+  done
+  for process in "${running[@]}"; do
+    if wait "$process"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+  done
 done
 echo "$passed passed, $failed failed"
 ((failed == 0))
