@@ -24,7 +24,7 @@ template <class F>
 struct MaterialLanes {
   Vec3<F> ambient, diffuse, specular, local;
   F shininess;
-  bool shiny = false;   // any of them
+  bool shiny = false;  // any of them
 };
 
 template <class F>
@@ -41,7 +41,8 @@ MaterialLanes<F> load_materials(const ShadingTables& tables, const ShadingBatch&
   const auto lanes = [&](const auto& number) {
     if (one) return F(number(material(0)));
     std::array<float, static_cast<std::size_t>(kLanes<F>)> values;
-    for (int lane = 0; lane < kLanes<F>; ++lane) values[static_cast<std::size_t>(lane)] = number(material(lane));
+    for (int lane = 0; lane < kLanes<F>; ++lane)
+      values[static_cast<std::size_t>(lane)] = number(material(lane));
     return load<F>(values.data());
   };
   const auto rgb = [&](Vec3<float> ShadingMaterial::*color) {
@@ -58,8 +59,7 @@ MaterialLanes<F> load_materials(const ShadingTables& tables, const ShadingBatch&
 }
 
 template <class F>
-void shade_lanes(const ShadingTables& tables, ShadingBatch& batch, bool with_parts, std::size_t i) {
-  const MaterialLanes<F> material = load_materials<F>(tables, batch, i);
+ShadingPoint<F> load_point(const ShadingBatch& batch, const MaterialLanes<F>& material, std::size_t i) {
   ShadingPoint<F> point;
   point.high = load_rgb<F>(batch.high, i);
   point.low = load_rgb<F>(batch.low, i);
@@ -69,7 +69,14 @@ void shade_lanes(const ShadingTables& tables, ShadingBatch& batch, bool with_par
   point.diffuse = material.diffuse;
   point.specular = material.specular;
   point.shininess = material.shininess;
-  const Vec3<F>& local = material.local;   // c1
+  return point;
+}
+
+template <class F>
+void shade_lanes(const ShadingTables& tables, ShadingBatch& batch, bool with_parts, std::size_t i) {
+  const MaterialLanes<F> material = load_materials<F>(tables, batch, i);
+  const ShadingPoint<F> point = load_point<F>(batch, material, i);
+  const Vec3<F>& local = material.local;  // c1
 
   const Vec3<float>& light = tables.ambient_light;
   const Vec3<F> ambient = ambient_term<F>(point, {F(light.x), F(light.y), F(light.z)});
@@ -95,7 +102,38 @@ void shade_batch(const ShadingTables& tables, ShadingBatch& batch, bool with_par
     shade_lanes<F>(tables, batch, with_parts, static_cast<std::size_t>(i));
 }
 
+template <class F>
+void light_terms_of_batch(const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
+                          LitBatch& out) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>) {
+    const MaterialLanes<F> material = load_materials<F>(tables, batch, i);
+    ShadingPoint<F> point = load_point<F>(batch, material, i);
+    point.facing = load_rgb<F>(batch.facing, i);
+    const Vec3<float>& ambient = tables.ambient_light;
+    store_rgb(ambient_term<F>(point, {F(ambient.x), F(ambient.y), F(ambient.z)}), out.ambient, i);
+    Vec3<F> diffuse{}, specular{};
+    for (std::size_t l = 0; l < tables.lights.size(); ++l) {
+      const LightTerm<F> term = light_term<F>(point, tables.lights[l], material.shiny);
+      const Vec3<F> total = term.total();
+      const Mask<F> dark = total.x == F(0) && total.y == F(0) && total.z == F(0);
+      const F state = select<F>(term.self_shadowed, F(LightTerms::kSelfShadowed), F(LightTerms::kAsk));
+      store_rgb(total, out.light[l].total, i);
+      store(select<F>(dark, F(LightTerms::kDark), state), &out.light[l].state[i]);
+      diffuse = diffuse + term.diffuse;
+      specular = specular + term.specular;
+    }
+    if (!with_parts) continue;
+    store_rgb(diffuse, out.diffuse, i);
+    store_rgb(specular, out.specular, i);
+  }
+}
+
 // One for each instruction set.
+void light_terms_scalar(const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
+                        LitBatch& out);
+void light_terms_avx2(const ShadingTables& tables, const ShadingBatch& batch, bool with_parts, LitBatch& out);
+void light_terms_avx512(const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
+                        LitBatch& out);
 void shade_scalar(const ShadingTables& tables, ShadingBatch& batch, bool with_parts);
 void shade_avx2(const ShadingTables& tables, ShadingBatch& batch, bool with_parts);
 void shade_avx512(const ShadingTables& tables, ShadingBatch& batch, bool with_parts);

@@ -26,6 +26,10 @@ template <class F>
 F size(const Vec3<F>& v) {
   return (lane_abs(v.x) + lane_abs(v.y)) + lane_abs(v.z);
 }
+template <class F>
+Vec3<F> absolute(const Vec3<F>& v) {
+  return {lane_abs(v.x), lane_abs(v.y), lane_abs(v.z)};
+}
 // As glm::normalize: by the reciprocal of the length.
 template <class F>
 Vec3<F> normalized(const Vec3<F>& v) {
@@ -48,12 +52,23 @@ class SurfaceLanes {
   Vec3<F> scene_vector(std::size_t i) const {
     return {scene_number(i, 0), scene_number(i, 1), scene_number(i, 2)};
   }
+  Vec3<F> origin(const SurfaceView& view) const {
+    return batch_.own_rays ? own(batch_.origin) : wide<F>(view.eye);
+  }
   Vec3<F> direction(const SurfaceView& view) const {
+    if (batch_.own_rays) return own(batch_.direction);
     const F column = load<F>(&batch_.column[first_]), row = load<F>(&batch_.row[first_]);
     return (column * wide<F>(view.right) + row * wide<F>(view.up)) + wide<F>(view.axis);
   }
   F given_t() const { return load<F>(&batch_.t[first_]); }
   void put_t(const F& t) { store(t, &batch_.t[first_]); }
+  bool wants_leaving() const { return batch_.want_leaving; }
+  void put_leaving(const Vec3<F>& point, const Vec3<F>& facing, const Vec3<F>& normal, const F& clearance) {
+    put(point, batch_.point);
+    put(facing, batch_.facing);
+    put(normal, batch_.normal);
+    store(clearance, &batch_.clearance[first_]);
+  }
   void put_doubt(const Mask<F>& sure) {
     store(select<F>(sure, F(0), F(1)), &batch_.doubtful[first_]);
     if constexpr (kLanes<F> == 1)
@@ -63,6 +78,15 @@ class SurfaceLanes {
   }
 
  private:
+  Vec3<F> own(const SurfaceBatch::Vectors& from) const {
+    return {load<F>(&from[0][first_]), load<F>(&from[1][first_]), load<F>(&from[2][first_])};
+  }
+  void put(const Vec3<F>& v, SurfaceBatch::Vectors& to) {
+    store(v.x, &to[0][first_]);
+    store(v.y, &to[1][first_]);
+    store(v.z, &to[2][first_]);
+  }
+
   SurfaceBatch& batch_;
   std::size_t first_, group_;
 };
@@ -93,7 +117,8 @@ template <class F>
 struct TriangleLanes {
   Vec3<F> v0, e1, e2;
   std::array<Vec3<F>, 3> edge, normal;
-  Vec3<F> facing;  // Nv; not of unit length unless a triangle of the group is flat
+  Vec3<F> facing;  // Nv; not of unit length unless a triangle of the group is flat, or rays leave
+  F clearance;     // if rays leave
   F facing_size;   // |x| + |y| + |z| of it
   F lengths2;      // |a_0|² + |a_1|² + |a_2|²
   Vec3<F> n;
@@ -101,18 +126,36 @@ struct TriangleLanes {
   Mask<F> sure, sure_depth;
 };
 
+// place.cpp's clearance_of() by kind.
+template <class F>
+F triangle_clearance(const Vec3<F>& outward, const Vec3<F>& v0, const Vec3<F>& v1, const Vec3<F>& v2) {
+  const auto reach = [](const F& a, const F& b, const F& c) {
+    return lane_max(lane_max(lane_abs(a), lane_abs(b)), lane_abs(c));
+  };
+  return F(16 * 0x1p-53) * dot(absolute(outward), Vec3<F>{reach(v0.x, v1.x, v2.x), reach(v0.y, v1.y, v2.y),
+                                                          reach(v0.z, v1.z, v2.z)});
+}
+template <class F>
+F sphere_clearance(const Vec3<F>& outward, const Vec3<F>& center, const F& radius) {
+  return F(16 * 0x1p-53) * (dot(absolute(outward), absolute(center)) + radius);
+}
+template <class F>
+F plane_clearance(const Vec3<F>& normal, const Vec3<F>& on_plane, const Vec3<F>& p) {
+  return F(0x1p-53) * dot(absolute(normal), F(10) * absolute(p - on_plane) + F(3) * absolute(p));
+}
+
 // Bounds, by |p_j q_k| + |p_k q_j| <= |p| |q|, with room for their own rounding:
 //   side: 6 u |a0| . weight <= 6 u sqrt(3) |a0| |a1| |a2|; squared, 2^-99.2 times the product of the squares.
 //   depth: w1 <= |e1| + |a0| + |a1| <= 2 (|a0| + |a1|), so weight <= 4 sqrt(S T) with S = |a0|² + |a1|² + |a2|²,
 //   T = |e1|² + |e2|²; |a0| . weight <= sqrt(3 S) 4 sqrt(S T) <= 2^31 |a0 . n| iff S² T <= 2^56.4 (a0 . n)².
 template <class F>
-TriangleLanes<F> triangle_lanes(const SurfaceLanes<F>& lanes, const Vec3<F>& eye, bool want_t) {
+TriangleLanes<F> triangle_lanes(const SurfaceLanes<F>& lanes, const Vec3<F>& origin, bool want_t) {
   TriangleLanes<F> out;
   const Vec3<F> v1 = lanes.scene_vector(1), v2 = lanes.scene_vector(2);
   out.v0 = lanes.scene_vector(0);
   out.e1 = v1 - out.v0;
   out.e2 = v2 - out.v0;
-  const Vec3<F> a0 = out.v0 - eye, a1 = v1 - eye, a2 = v2 - eye;
+  const Vec3<F> a0 = out.v0 - origin, a1 = v1 - origin, a2 = v2 - origin;
   out.edge = {cross(a1, a2), cross(a2, a0), cross(a0, a1)};
 
   const F s0 = dot(a0, a0), s1 = dot(a1, a1), s2 = dot(a2, a2);
@@ -122,12 +165,13 @@ TriangleLanes<F> triangle_lanes(const SurfaceLanes<F>& lanes, const Vec3<F>& eye
 
   out.n = cross(out.e1, out.e2);
   Vec3<F> outward = out.n;
-  if (lanes.group().flat) {
+  if (lanes.group().flat || lanes.wants_leaving()) {
     const F most = lane_max(lane_max(lane_abs(out.n.x), lane_abs(out.n.y)), lane_abs(out.n.z));
     outward = normalized(Vec3<F>{out.n.x / most, out.n.y / most, out.n.z / most});
   }
   out.facing = select<F>(side < F(0), outward, -outward);
   out.facing_size = size(out.facing);
+  if (lanes.wants_leaving()) out.clearance = triangle_clearance(outward, out.v0, v1, v2);
   if (lanes.group().smooth)
     out.normal = {lanes.scene_vector(3), lanes.scene_vector(4), lanes.scene_vector(5)};
 
@@ -186,6 +230,10 @@ void triangle_surfaces(const SurfaceView& view, const TriangleLanes<F>& triangle
     lanes.put_t(t);
   }
   lanes.put_doubt(sure);
+  if (lanes.wants_leaving()) {
+    lanes.put_leaving(point, triangle.facing, normal, triangle.clearance);
+    put_rounded(triangle.facing, out.facing, i);
+  }
   put_point(view, point, normal, d, lanes.group().shiny, out, i);
 }
 
@@ -195,9 +243,9 @@ void surfaces_of_triangles(const SurfaceView& view, SurfaceBatch& batch, Shading
   std::uint32_t last = kNone;  // the one triangle that it is set up for
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>) {
     const SurfaceLanes<F> lanes(batch, i);
-    const std::uint32_t one = lanes.group().one ? batch.primitive[i] : kNone;
+    const std::uint32_t one = lanes.group().one && !batch.own_rays ? batch.primitive[i] : kNone;
     if (one == kNone || one != last)
-      triangle = triangle_lanes(lanes, wide<F>(view.eye), batch.want_t && !batch.has_t);
+      triangle = triangle_lanes(lanes, lanes.origin(view), batch.want_t && !batch.has_t);
     last = one;
     triangle_surfaces(view, triangle, batch, out, i);
   }
@@ -211,7 +259,7 @@ void sphere_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch&
   SurfaceLanes<F> lanes(batch, i);
   const Vec3<F> d = lanes.direction(view), center = lanes.scene_vector(0);
   const F radius = lanes.scene_number(1, 0), r2 = radius * radius;
-  const Vec3<F> f = wide<F>(view.eye) - center;
+  const Vec3<F> f = lanes.origin(view) - center;
   const F dd = dot(d, d), b = -dot(f, d);
   const Vec3<F> nearest = f + (b / dd) * d;
   const F discriminant = r2 - dot(nearest, nearest);
@@ -230,7 +278,12 @@ void sphere_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch&
   lanes.put_t(t);
   lanes.put_doubt(meets && apart && b != F(0) && t > F(0));
   const Vec3<F> facing = select<F>(t == low, outward, -outward);
-  put_point(view, center + radius * outward, facing, d, lanes.group().shiny, out, i);
+  const Vec3<F> point = center + radius * outward;
+  if (lanes.wants_leaving()) {
+    lanes.put_leaving(point, facing, facing, sphere_clearance(outward, center, radius));
+    put_rounded(facing, out.facing, i);
+  }
+  put_point(view, point, facing, d, lanes.group().shiny, out, i);
 }
 
 // ---- Planes ----
@@ -240,14 +293,18 @@ template <class F>
 void plane_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out, std::size_t i) {
   SurfaceLanes<F> lanes(batch, i);
   const Vec3<F> d = lanes.direction(view), on_plane = lanes.scene_vector(0), outward = lanes.scene_vector(1);
-  const Vec3<F> eye = wide<F>(view.eye);
+  const Vec3<F> origin = lanes.origin(view);
   const F along = dot(outward, d);
-  const F t = batch.has_t ? lanes.given_t() : dot(outward, on_plane - eye) / along;
-  const Vec3<F> p = eye + t * d;
+  const F t = batch.has_t ? lanes.given_t() : dot(outward, on_plane - origin) / along;
+  const Vec3<F> p = origin + t * d;
   const Vec3<F> point = p - dot(outward, p - on_plane) * outward;
   lanes.put_t(t);
   lanes.put_doubt(t > F(0));
   const Vec3<F> facing = select<F>(along < F(0), outward, -outward);
+  if (lanes.wants_leaving()) {
+    lanes.put_leaving(point, facing, facing, plane_clearance(outward, on_plane, p));
+    put_rounded(facing, out.facing, i);
+  }
   put_point(view, point, facing, d, lanes.group().shiny, out, i);
 }
 

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#include "raytrace/wave.h"
+
+#include <algorithm>
+
+namespace sidelight::raytrace {
+namespace {
+
+constexpr LayerMask kParts =
+    layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
+
+glm::vec3 rgb(const ShadingBatch::Rgb& from, std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
+glm::vec3 rgb(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
+glm::dvec3 get(const SurfaceBatch::Vectors& from, std::size_t i) {
+  return {from[0][i], from[1][i], from[2][i]};
+}
+void put(SurfaceBatch::Vectors& to, std::size_t i, const glm::dvec3& v) {
+  to[0][i] = v.x;
+  to[1][i] = v.y;
+  to[2][i] = v.z;
+}
+
+}  // namespace
+
+Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_media,
+           const RenderOptions& options)
+    : prepared_(prepared),
+      scene_(prepared.scene),
+      camera_(camera),
+      eye_media_(eye_media),
+      isa_(options.isa),
+      layers_(options.layers),
+      secondary_(prepared.needs[Need::mirrors] || prepared.needs[Need::refraction]),
+      shadows_(scene_.trace.shadows && !prepared.tables.lights.empty()),
+      want_parts_((options.layers & kParts) != 0),
+      want_shadow_((options.layers & layer_bit(Layer::shadow)) != 0),
+      want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
+      want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples) {
+  for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
+    surfaces_[static_cast<std::size_t>(kind)].kind = kind;
+}
+
+void Wave::trace(const Rect& pixels, RenderStats& stats) {
+  begin(pixels);
+  stats.rays.primary += samples();
+  std::size_t depth = 0;
+  for (bool any = true; any; ++depth) {
+    if (levels_.size() < depth + 2) levels_.resize(depth + 2);
+    Level &level = levels_[depth], &next = levels_[depth + 1];
+    const bool eye = depth == 0;
+    find_hits(level, eye, stats);
+    find_surfaces(level, eye, stats);
+    if (shadows_) add_lights(stats);
+    sum_up(level, eye);
+    next.rays.clear();
+    if (secondary_) send_secondary(level, next, stats);
+    any = !next.rays.empty();
+  }
+  while (--depth > 0) bring_back(levels_[depth], levels_[depth - 1]);
+  Level& eye = levels_[0];
+  if (secondary_)
+    for (std::size_t i = 0; i < eye.color.size(); ++i)
+      if (eye.hits[i].found()) eye.color[i] = (eye.color[i] + eye.mirrored[i]) + eye.refracted[i];
+}
+
+void Wave::begin(const Rect& pixels) {
+  pixels_ = pixels;
+  if (levels_.empty()) levels_.resize(1);
+  const auto size_if = [&](auto& array, bool wanted) {
+    if (wanted) array.assign(samples(), {});
+  };
+  for (Colors& part : parts_) size_if(part, want_parts_);
+  size_if(shadow_, want_shadow_);
+  size_if(normal_, want_normal_);
+  size_if(t_, want_t_);
+}
+
+Ray Wave::ray_of(const Level& level, std::size_t ray) const {
+  if (!level.rays.empty()) return level.rays[ray].path.ray;
+  const auto X = camera_.n * pixels_.x0 + static_cast<int>(ray % columns());
+  const auto Y = camera_.n * pixels_.y0 + static_cast<int>(ray / columns());
+  return {camera_.eye, camera_.direction(X, Y)};
+}
+
+Path Wave::path_of(const Level& level, std::size_t ray) const {
+  if (!level.rays.empty()) return level.rays[ray].path;
+  Path path;
+  path.ray = ray_of(level, ray);
+  path.media = eye_media_;
+  return path;
+}
+
+// ---- Hits ----
+
+void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
+  const std::size_t size = eye ? samples() : level.rays.size();
+  level.hits.resize(size);
+  for (std::size_t i = 0; i < size; ++i)
+    level.hits[i] = eye ? nearest(prepared_, ray_of(level, i), kRayStart, stats.signs)
+                        : first_shaded(level.rays[i], stats);
+  level.color.assign(size, glm::vec3(scene_.background));
+  if (!secondary_) return;
+  level.mirrored.assign(size, glm::vec3(0));
+  level.refracted.assign(size, glm::vec3(0));
+  level.cut_weight.assign(size, 0.0);
+}
+
+// The first hit of a secondary ray that is not just a surface inside of a medium that goes on behind it.
+Hit Wave::first_shaded(WaveRay& ray, RenderStats& stats) const {
+  Path& path = ray.path;
+  for (Hit hit = nearest(prepared_, path.ray, path.start, stats.signs);;
+       hit = nearest(prepared_, path.ray, hit, stats.signs)) {
+    if (!hit.found() || prepared_.solids.empty() ||
+        !scene_.objects[scene_.primitive_object[hit.primitive]].solid)
+      return hit;
+    const Surface surface = surface_at(scene_, path.ray, hit, stats.signs);
+    const Media behind = media_behind(prepared_, path.ray, hit, surface, path.media, stats.signs);
+    if (behind.current() != path.media.current()) return hit;
+    path.media = behind;
+  }
+}
+
+// ---- Surfaces and light ----
+
+HitBatch& Wave::next_batch() {
+  if (used_ == batches_.size()) batches_.emplace_back();
+  return batches_[used_++];
+}
+
+void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
+  used_ = 0;
+  for (SurfaceBatch& batch : surfaces_) {
+    batch.own_rays = !eye;
+    batch.has_t = true;
+    batch.want_t = false;
+    batch.want_leaving = shadows_ || secondary_;
+  }
+  for (std::size_t i = 0; i < level.hits.size(); ++i) {
+    const Hit& hit = level.hits[i];
+    if (!hit.found()) continue;
+    SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(primitive_ref(scene_, hit.primitive).kind)];
+    const auto entry = static_cast<std::size_t>(batch.size);
+    batch.t[entry] = hit.t;
+    if (eye) {
+      const auto X = camera_.n * pixels_.x0 + static_cast<int>(i % columns());
+      const auto Y = camera_.n * pixels_.y0 + static_cast<int>(i / columns());
+      batch.add(camera_.column_factor(X), camera_.row_factor(Y), &hit.primitive,
+                static_cast<std::uint32_t>(i), 1);
+    } else {
+      const Ray& ray = level.rays[i].path.ray;
+      put(batch.origin, entry, ray.origin);
+      put(batch.direction, entry, ray.direction);
+      batch.add(0, 0, &hit.primitive, static_cast<std::uint32_t>(i), 1);
+    }
+    if (batch.room() == 0) flush(level, batch, eye, stats);
+  }
+  for (SurfaceBatch& batch : surfaces_) flush(level, batch, eye, stats);
+}
+
+void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& stats) {
+  if (surfaces.size == 0) return;
+  surfaces_at(isa_, scene_, camera_, prepared_.tables, surfaces, shading_, stats.signs);
+  HitBatch& batch = next_batch();
+  const auto size = static_cast<std::size_t>(surfaces.size);
+  batch.size = surfaces.size;
+  std::copy_n(surfaces.sample.begin(), size, batch.ray.begin());
+  std::copy_n(shading_.material.begin(), size, batch.material.begin());
+  if (eye && want_normal_)
+    for (std::size_t i = 0; i < size; ++i) normal_[batch.ray[i]] = rgb(shading_.normal, i);
+
+  if (shadows_) {
+    light_terms(isa_, prepared_.tables, shading_, eye && want_parts_, batch.lit);
+  } else {
+    shade(isa_, prepared_.tables, shading_, eye && want_parts_);
+    for (std::size_t i = 0; i < size; ++i) {
+      level.color[batch.ray[i]] = rgb(shading_.unshadowed, i);
+      if (!eye || !want_parts_) continue;
+      parts_[0][batch.ray[i]] = rgb(shading_.ambient_layer, i);
+      parts_[1][batch.ray[i]] = rgb(shading_.diffuse_layer, i);
+      parts_[2][batch.ray[i]] = rgb(shading_.specular_layer, i);
+    }
+  }
+  if (surfaces.want_leaving) find_leaving_points(level, surfaces, batch, stats);
+  surfaces.size = 0;
+}
+
+void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
+                               RenderStats& stats) const {
+  batch.normal = surfaces.normal;
+  batch.facing = surfaces.facing;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
+    const Hit& hit = level.hits[batch.ray[i]];
+    const Ray ray = ray_of(level, batch.ray[i]);
+    Place place;
+    place.point = get(surfaces.point, i);
+    place.facing = get(surfaces.facing, i);
+    place.clearance = surfaces.clearance[i];
+    place.together = together_depth(ray, hit, place);
+    put(batch.from, i, leaving_point(prepared_, ray, hit, place, stats.signs));
+  }
+}
+
+void Wave::add_lights(RenderStats& stats) {
+  for (std::size_t b = 0; b < used_; ++b) {
+    HitBatch& batch = batches_[b];
+    batch.light = batch.lit.ambient;
+    for (auto& channel : batch.missing) channel.fill(0);
+  }
+  for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) add_light(light, stats);
+}
+
+// Where a shadow ray is blocked, the light's state becomes that of a surface in its own light: b_i = 0.
+void Wave::add_light(std::size_t light, RenderStats& stats) {
+  const Light& source = scene_.lights[light];
+  for (std::size_t b = 0; b < used_; ++b) {
+    HitBatch& batch = batches_[b];
+    LightTerms& terms = batch.lit.light[light];
+    const auto size = static_cast<std::size_t>(batch.size);
+    for (std::size_t i = 0; i < size; ++i) {
+      if (terms.state[i] == LightTerms::kSelfShadowed) ++stats.self_shadowed;
+      if (terms.state[i] != LightTerms::kAsk) continue;
+      ++stats.rays.shadow;
+      const Ray ray = ray_to_light(batch.from_of(i), source);
+      if (blocker(prepared_, ray, source.directional ? nullptr : &source.position, stats.signs).found())
+        terms.state[i] = LightTerms::kSelfShadowed;
+    }
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      for (std::size_t i = 0; i < size; ++i) {
+        const float total = terms.total[channel][i];
+        const bool seen = terms.state[i] != LightTerms::kSelfShadowed;
+        batch.light[channel][i] += seen ? total : 0.0f;
+        batch.missing[channel][i] += seen ? 0.0f : total;
+      }
+  }
+}
+
+// color = c1 (ka Ia + sum b_i T_i), shadow = c1 sum (1 - b_i) T_i, and the unshadowed parts.
+void Wave::sum_up(Level& level, bool eye) {
+  if (eye && want_t_)
+    for (std::size_t i = 0; i < level.hits.size(); ++i) t_[i] = level.hits[i].found() ? level.hits[i].t : 0.0;
+  if (eye && want_parts_)  // the background is booked as ambient light
+    for (std::size_t i = 0; i < level.hits.size(); ++i)
+      if (!level.hits[i].found()) parts_[0][i] = level.color[i];
+  if (!shadows_) return;
+  for (std::size_t b = 0; b < used_; ++b) {
+    const HitBatch& batch = batches_[b];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
+      const std::uint32_t ray = batch.ray[i];
+      const glm::vec3 c1 = rgb(prepared_.tables.materials[batch.material[i]].local);
+      level.color[ray] = c1 * rgb(batch.light, i);
+      if (!eye) continue;
+      if (want_shadow_) shadow_[ray] = c1 * rgb(batch.missing, i);
+      if (!want_parts_) continue;
+      parts_[0][ray] = c1 * rgb(batch.lit.ambient, i);
+      parts_[1][ray] = c1 * rgb(batch.lit.diffuse, i);
+      parts_[2][ray] = c1 * rgb(batch.lit.specular, i);
+    }
+  }
+}
+
+// ---- Secondary rays ----
+
+void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) const {
+  const auto follow = [&](Departure& leaving, std::uint32_t parent) {
+    auto& [path, c] = leaving;
+    if (largest(c) == 0) return;
+    if (!send(scene_, c, path)) {
+      level.cut_weight[parent] += path.weight;
+      return;
+    }
+    ++(is_mirrored(path.kind) ? stats.rays.reflection : stats.rays.refraction);
+    next.rays.push_back({std::move(path), c, parent});
+  };
+  for (std::size_t b = 0; b < used_; ++b) {
+    const HitBatch& batch = batches_[b];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
+      const Material& material = scene_.materials[batch.material[i]];
+      const bool refracts = largest(refract_of(scene_, material)) != 0;
+      if (!refracts && largest(reflect_of(scene_, material)) == 0) continue;
+      const std::uint32_t ray = batch.ray[i];
+      const Hit& hit = level.hits[ray];
+      const Path path = path_of(level, ray);
+      Surface surface;
+      if (refracts) surface = surface_at(scene_, path.ray, hit, stats.signs);
+      surface.object = scene_.primitive_object[hit.primitive];
+      surface.material = batch.material[i];
+      surface.normal = get(batch.normal, i);
+      surface.facing = get(batch.facing, i);
+      Departures leaving = departures(prepared_, path, hit, surface, batch.from_of(i), stats.signs);
+      follow(leaving.mirrored, ray);
+      follow(leaving.refracted, ray);
+    }
+  }
+}
+
+// c w(r) color of every ray, to where it came from.
+void Wave::bring_back(const Level& level, Level& parent) const {
+  for (std::size_t i = 0; i < level.rays.size(); ++i) {
+    const WaveRay& ray = level.rays[i];
+    glm::vec3 color = level.color[i];
+    if (level.hits[i].found()) color = (color + level.mirrored[i]) + level.refracted[i];
+    const float w =
+        prepared_.needs[Need::secondary_attenuation]
+            ? static_cast<float>(distance_weight(scene_.trace.secondary_attenuation, ray.path, level.hits[i]))
+            : 1.0f;
+    (is_mirrored(ray.path.kind) ? parent.mirrored : parent.refracted)[ray.parent] =
+        glm::vec3(ray.c) * (w * color);
+    parent.cut_weight[ray.parent] += level.cut_weight[i];
+  }
+}
+
+}  // namespace sidelight::raytrace
