@@ -18,7 +18,7 @@ class Prepared;  // the bounding volume hierarchy and whatever else depends on t
 // `scene` must outlive the result. Its time is a renderer's build time.
 std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
 // The same, entering also what `needs` claims beyond needs_of(scene). Not one bit of the picture changes.
-std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene);
+std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene, int threads = 0);
 
 // The picture, as scene.trace asks for (depth, cut, switches). Layers: kAllLayers. Throws Interrupted when
 // options.cancel is raised.

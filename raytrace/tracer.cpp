@@ -39,11 +39,12 @@ Path eye_path(const Camera& camera, const Media& eye_media, int X, int Y) {
 }
 
 template <class Real>
-void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media, const Faults& faults,
-               int y, Frame& frame, RenderStats& stats, std::vector<double>& cut) {
+void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media,
+               const RenderOptions& options, int y, Frame& frame, RenderStats& stats,
+               std::vector<double>& cut) {
   const int n = camera.n;
   NoRecorder<Real> nothing;
-  Whitted<Real, NoRecorder<Real>> whitted(prepared, stats, nothing, faults);
+  Whitted<Real, NoRecorder<Real>> whitted(prepared, stats, nothing, options.faults, options.isa);
   PixelWriter pixel(frame, camera.depth_scale());
   for (int x = frame.window.x0; x < frame.window.x1; ++x) {
     for (int Y = n * y; Y < n * (y + 1); ++Y)
@@ -62,12 +63,12 @@ void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_
 
 }  // namespace
 
-std::shared_ptr<const Prepared> prepare(const Scene& scene, int) {
-  return prepare_for(needs_of(scene), scene);
+std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads) {
+  return prepare_for(needs_of(scene), scene, threads);
 }
-std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene) {
+std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene, int threads) {
   const StandardFloatState nearest_and_denormals;
-  return std::make_shared<const Prepared>(scene, needs);
+  return std::make_shared<const Prepared>(scene, needs, threads);
 }
 
 namespace {
@@ -114,7 +115,7 @@ Frame render_in(const Prepared& prepared, const Camera& camera, const RenderOpti
     trace_in_waves(prepared, camera, eye_media, options, frame, cut);
   else
     trace_parts(frame.height(), options, frame.stats, [&](int row, int, RenderStats& stats) {
-      trace_row<Real>(prepared, camera, eye_media, options.faults, frame.window.y0 + row, frame, stats, cut);
+      trace_row<Real>(prepared, camera, eye_media, options, frame.window.y0 + row, frame, stats, cut);
     });
   for (const double weight : cut) frame.stats.cut_weight += weight;
   frame.stats.cut_weight /= static_cast<double>(frame.pixels()) * camera.n * camera.n;

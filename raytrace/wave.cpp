@@ -96,7 +96,7 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   const std::size_t size = eye ? samples() : level.rays.size();
   level.hits.resize(size);
   for (std::size_t i = 0; i < size; ++i)
-    level.hits[i] = eye ? nearest(prepared_, ray_of(level, i), kRayStart, stats.signs)
+    level.hits[i] = eye ? nearest(prepared_, ray_of(level, i), kRayStart, stats.signs, Precision::exact, isa_)
                         : first_shaded(level.rays[i], stats);
   level.color.assign(size, glm::vec3(scene_.background));
   if (!secondary_) return;
@@ -108,8 +108,8 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
 // The first hit of a secondary ray that is not just a surface inside of a medium that goes on behind it.
 Hit Wave::first_shaded(WaveRay& ray, RenderStats& stats) const {
   Path& path = ray.path;
-  for (Hit hit = nearest(prepared_, path.ray, path.start, stats.signs);;
-       hit = nearest(prepared_, path.ray, hit, stats.signs)) {
+  for (Hit hit = nearest(prepared_, path.ray, path.start, stats.signs, Precision::exact, isa_);;
+       hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
     if (!hit.found() || prepared_.solids.empty() ||
         !scene_.objects[scene_.primitive_object[hit.primitive]].solid)
       return hit;
@@ -196,7 +196,7 @@ void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces,
     place.facing = get(surfaces.facing, i);
     place.clearance = surfaces.clearance[i];
     place.together = together_depth(ray, hit, place);
-    put(batch.from, i, leaving_point(prepared_, ray, hit, place, stats.signs));
+    put(batch.from, i, leaving_point(prepared_, ray, hit, place, stats.signs, isa_));
   }
 }
 
@@ -221,7 +221,9 @@ void Wave::add_light(std::size_t light, RenderStats& stats) {
       if (terms.state[i] != LightTerms::kAsk) continue;
       ++stats.rays.shadow;
       const Ray ray = ray_to_light(batch.from_of(i), source);
-      if (blocker(prepared_, ray, source.directional ? nullptr : &source.position, stats.signs).found())
+      if (blocker(prepared_, ray, source.directional ? nullptr : &source.position, stats.signs, kRayStart,
+                  Precision::exact, isa_)
+              .found())
         terms.state[i] = LightTerms::kSelfShadowed;
     }
     for (std::size_t channel = 0; channel < 3; ++channel)

@@ -18,8 +18,8 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
   Surface surface;
   recorder_.begin(path);
   // A surface inside a medium that goes on behind it is passed without colour; what the eye itself meets is shaded.
-  for (Hit hit = nearest(prepared_, path.ray, path.start, stats_.signs, precision_);;
-       hit = nearest(prepared_, path.ray, hit, stats_.signs, precision_)) {
+  for (Hit hit = nearest(prepared_, path.ray, path.start, stats_.signs, precision_, isa_);;
+       hit = nearest(prepared_, path.ray, hit, stats_.signs, precision_, isa_)) {
     out.hit = hit;
     if (!hit.found()) {
       out.color = out.ambient = Rgb(scene_.background);
@@ -39,7 +39,7 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
   const bool secondary = prepared_.needs[Need::mirrors] || prepared_.needs[Need::refraction];
   glm::dvec3 from{0};  // where rays start that leave
   if (secondary || scene_.trace.shadows)
-    from = leaving_point(prepared_, path.ray, out.hit, surface, stats_.signs);
+    from = leaving_point(prepared_, path.ray, out.hit, surface, stats_.signs, isa_);
   add_local(surface, path.ray, from, out);
   if (secondary) add_secondary(path, surface, from, out);
   out.color = (out.color + out.mirrored) + out.refracted;
@@ -93,8 +93,8 @@ Hit Whitted<Real, Recorder>::shadow_blocker(const Surface& surface, const glm::d
   const glm::dvec3 origin = shadow_offset_ ? surface.point : from;
   const Ray ray = ray_to_light(origin, light);
   const Hit start{shadow_offset_ ? *shadow_offset_ / glm::length(ray.direction) : kRayStart.t, kNone};
-  return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start,
-                 precision_);
+  return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start, precision_,
+                 isa_);
 }
 
 template <class Real, class Recorder>

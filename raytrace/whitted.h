@@ -33,14 +33,16 @@ class Whitted {
  public:
   using Rgb = glm::vec<3, Real>;
 
-  Whitted(const Prepared& prepared, RenderStats& stats, Recorder& recorder, const Faults& faults = {})
+  Whitted(const Prepared& prepared, RenderStats& stats, Recorder& recorder, const Faults& faults = {},
+          Isa isa = best_isa())
       : prepared_(prepared),
         scene_(prepared.scene),
         tables_(prepared.tables_in<Real>()),
         stats_(stats),
         recorder_(recorder),
         shadow_offset_(faults.shadow_offset),
-        precision_(faults.float_precision ? Precision::in_float : Precision::exact) {}
+        precision_(faults.float_precision ? Precision::in_float : Precision::exact),
+        isa_(isa) {}
 
   Traced<Real> trace(const Path& path);
 
@@ -57,6 +59,7 @@ class Whitted {
   Recorder& recorder_;
   std::optional<double> shadow_offset_;  // faults on purpose (faults.h)
   Precision precision_;
+  Isa isa_;
 };
 
 extern template class Whitted<float, NoRecorder<float>>;

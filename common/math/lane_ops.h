@@ -43,6 +43,16 @@ int count(const Mask<F>& mask) {
     return stdx::popcount(mask);
 }
 
+// One bit for each of F's lanes, the first lane's lowest.
+template <class F>
+std::uint32_t mask_bits(const Mask<F>& mask) {
+  static_assert(kLanes<F> <= 32);
+  if constexpr (kLanes<F> == 1)
+    return mask ? 1 : 0;
+  else
+    return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
+}
+
 // A mask of F's lanes as one of the integers beside them.
 template <class F>
 Mask<Ints<F>> integer_mask(const Mask<F>& mask) {

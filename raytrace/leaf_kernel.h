@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Which primitives of a leaf a ray may meet: filters over lanes D of doubles, each verdict certified by a bound on its
+// rounding. A primitive is dropped only where exact arithmetic, and so visibility.h, would find no hit at a depth in
+// (0, limit]; what is left is asked there. Included by the kernels only (bvh_kernel.h); nothing is fused.
+#pragma once
+
+#include "common/math/lane_ops.h"
+#include "common/model/visibility.h"
+
+namespace sidelight::raytrace {
+
+inline constexpr double kUnit = 0x1p-53;  // unit roundoff
+// Depths of visibility.h are good to 2^-18.
+inline constexpr double kDepthSlack = 1 + 0x1p-16;
+
+// S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: sheared so that the ray runs
+// along an axis, a triangle is seen as a flat one, and its edge functions E_k are those of the plane.
+//
+// Rounding. A bounds all components of a = v - o, and those of a, sheared, are x = a_x - s_x a_z with |s_x| <= 1: off by
+// u A for s_x, u A for the product, u |x| <= 2 u A for the difference. With d = 5 u A and m = |x| + |y| of a corner,
+// E_k = x_i y_j - x_j y_i is off by d (m_i + m_j) + 2 d² for that, and by 2 u (|x_i y_j| + |x_j y_i|) <= d (m_i + m_j) of
+// its own. So s (m_0 + m_1 + m_2 + s), s = 16 u A, bounds the error of each E_k, and A times it that of E_k a_z.
+//   t d_z = sum E_k a_kz / sum E_k:
+// where no two E_k are surely of opposite sign, |sum E_k a_kz| <= (|sum E_k| + 6 error) A; so 16 errors leave no doubt.
+template <class D>
+class TriangleFilter {
+ public:
+  static constexpr int kRows = 9;
+
+  TriangleFilter(const Ray& ray, double reach) {
+    const auto magnitude = [](double x) { return x < 0 ? -x : x; };
+    const double x = magnitude(ray.direction.x), y = magnitude(ray.direction.y),
+                 z = magnitude(ray.direction.z);
+    const int axis_z = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+    axis_ = {(axis_z + 1) % 3, (axis_z + 2) % 3, axis_z};
+    double largest = reach;
+    for (std::size_t i = 0; i < 3; ++i) {
+      origin_[i] = ray.origin[axis_[i]];
+      largest = lane_max(largest, magnitude(origin_[i]));
+    }
+    const double d_z = ray.direction[axis_z];
+    shear_x_ = ray.direction[axis_[0]] / d_z;
+    shear_y_ = ray.direction[axis_[1]] / d_z;
+    inverse_z_ = 1 / d_z;
+    slack_ = 16 * kUnit * (2 * largest);
+    depth_slack_ = 16 * (2 * largest) * magnitude(inverse_z_);
+  }
+
+  // One bit for each triangle of a leaf of `count` that may be met at a depth in (0, limit].
+  std::uint32_t operator()(const double* leaf, std::uint32_t count, double limit) const {
+    std::uint32_t bits = 0;
+    for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>)
+      bits |= may_meet(leaf + lane, count, limit) << lane;
+    return bits & ((1u << count) - 1);
+  }
+
+ private:
+  std::uint32_t may_meet(const double* leaf, std::uint32_t count, double limit) const {
+    D x[3], y[3], z[3];
+    D size(slack_);
+    for (int k = 0; k < 3; ++k) {
+      const auto a = [&](std::size_t i) {
+        return load<D>(leaf + static_cast<std::uint32_t>(3 * k + axis_[i]) * count) - D(origin_[i]);
+      };
+      z[k] = a(2);
+      x[k] = a(0) - D(shear_x_) * z[k];
+      y[k] = a(1) - D(shear_y_) * z[k];
+      size = size + (lane_abs<D>(x[k]) + lane_abs<D>(y[k]));
+    }
+    const D error = D(slack_) * size;
+    const D e0 = x[1] * y[2] - x[2] * y[1], e1 = x[2] * y[0] - x[0] * y[2], e2 = x[0] * y[1] - x[1] * y[0];
+    const D low = lane_min<D>(lane_min<D>(e0, e1), e2), high = lane_max<D>(lane_max<D>(e0, e1), e2);
+
+    const D sum = (e0 + e1) + e2, depths = ((e0 * z[0] + e1 * z[1]) + e2 * z[2]) * D(inverse_z_);
+    const Mask<D> negative = sum < D(0);
+    const D turned = select<D>(negative, -depths, depths);  // t |sum|
+    const D doubt = error * D(depth_slack_);
+    const Mask<D> apart = low < -error && high > error;  // of different sign
+    const Mask<D> behind = turned + doubt < D(0);
+    const Mask<D> beyond = turned - doubt > D(limit * kDepthSlack) * (lane_abs<D>(sum) + D(4) * error);
+    return mask_bits<D>(!(apart || behind || beyond));
+  }
+
+  std::array<int, 3> axis_;
+  std::array<double, 3> origin_;
+  double shear_x_, shear_y_, inverse_z_, slack_, depth_slack_;
+};
+
+// Rounding. A bounds all components of f = o - c and the radius. The point of the line that is nearest to the centre is
+// found as f - (f.d / d.d) d, off by at most 20 u A in each component, 64 u A with room; visibility.h's is as much off.
+// Its own rounding of a root is small only where the line runs well inside; elsewhere nothing is said of depths.
+template <class D>
+class SphereFilter {
+ public:
+  static constexpr int kRows = 4;
+
+  SphereFilter(const Ray& ray, double reach) {
+    const auto magnitude = [](double x) { return x < 0 ? -x : x; };
+    double largest = reach;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int axis = static_cast<int>(i);
+      origin_[i] = ray.origin[axis];
+      direction_[i] = ray.direction[axis];
+      largest = lane_max(largest, magnitude(origin_[i]));
+    }
+    reach_ = 2 * largest;
+    square_ = (direction_[0] * direction_[0] + direction_[1] * direction_[1]) + direction_[2] * direction_[2];
+    inverse_length_ = 1 / square_root(square_);
+  }
+
+  // One bit for each sphere of a leaf of `count` that may be met at a depth in (0, limit].
+  std::uint32_t operator()(const double* leaf, std::uint32_t count, double limit) const {
+    std::uint32_t bits = 0;
+    for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>)
+      bits |= may_meet(leaf + lane, count, limit) << lane;
+    return bits & ((1u << count) - 1);
+  }
+
+ private:
+  std::uint32_t may_meet(const double* leaf, std::uint32_t count, double limit) const {
+    const D radius = load<D>(leaf + 3 * count), slack(128 * kUnit * reach_);
+    D f[3], along(0), distance2(0), size(0);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      f[i] = D(origin_[i]) - load<D>(leaf + i * count);
+      along = along - f[i] * D(direction_[i]);
+    }
+    const D t = along / D(square_);  // of the nearest point
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const D n = f[i] + t * D(direction_[i]);
+      distance2 = distance2 + n * n;
+      size = size + lane_abs<D>(n);
+    }
+    const D inside = radius * radius - distance2;  // half the chord, squared
+    const Mask<D> missed = inside < -(slack * (D(2) * (size + radius) + slack));
+    // Both ends of a chord that is not short, in units of length along the ray.
+    const D half = square_root(lane_max<D>(inside, D(0))) * D(inverse_length_);
+    const D doubt(0x1p-20 * reach_ * inverse_length_);
+    const Mask<D> clear = inside > D(0x1p-32 * reach_ * reach_);
+    const Mask<D> behind = t + half + doubt < D(0);
+    const Mask<D> beyond = t - half - doubt > D(limit * kDepthSlack);
+    return mask_bits<D>(!(missed || (clear && (behind || beyond))));
+  }
+
+  std::array<double, 3> origin_, direction_;
+  double reach_, square_, inverse_length_;
+};
+
+}  // namespace sidelight::raytrace
