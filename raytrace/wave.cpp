@@ -35,7 +35,9 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       want_parts_((options.layers & kParts) != 0),
       want_shadow_((options.layers & layer_bit(Layer::shadow)) != 0),
       want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
-      want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples) {
+      want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples),
+      eye_packets_(prepared, camera, options.isa) {
+  farthest_alone_ = 16 * eye_packets_.reach() / eye_packets_.ray_length();
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
     surfaces_[static_cast<std::size_t>(kind)].kind = kind;
 }
@@ -94,10 +96,13 @@ Path Wave::path_of(const Level& level, std::size_t ray) const {
 
 void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   const std::size_t size = eye ? samples() : level.rays.size();
-  level.hits.resize(size);
-  for (std::size_t i = 0; i < size; ++i)
-    level.hits[i] = eye ? nearest(prepared_, ray_of(level, i), kRayStart, stats.signs, Precision::exact, isa_)
-                        : first_shaded(level.rays[i], stats);
+  if (eye) {
+    eye_packets_.trace(camera_.n * pixels_.x0, camera_.n * pixels_.y0, static_cast<int>(columns()),
+                       camera_.n * pixels_.height(), level.hits, level.alone, stats.signs);
+  } else {
+    level.hits.resize(size);
+    for (std::size_t i = 0; i < size; ++i) level.hits[i] = first_shaded(level.rays[i], stats);
+  }
   level.color.assign(size, glm::vec3(scene_.background));
   if (!secondary_) return;
   level.mirrored.assign(size, glm::vec3(0));
@@ -131,9 +136,9 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
   used_ = 0;
   for (SurfaceBatch& batch : surfaces_) {
     batch.own_rays = !eye;
-    batch.has_t = true;
-    batch.want_t = false;
     batch.want_leaving = shadows_ || secondary_;
+    batch.has_t = !eye;
+    batch.want_t = eye && (want_t_ || batch.want_leaving);
   }
   for (std::size_t i = 0; i < level.hits.size(); ++i) {
     const Hit& hit = level.hits[i];
@@ -162,6 +167,8 @@ void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& st
   surfaces_at(isa_, scene_, camera_, prepared_.tables, surfaces, shading_, stats.signs);
   HitBatch& batch = next_batch();
   const auto size = static_cast<std::size_t>(surfaces.size);
+  if (surfaces.want_t)
+    for (std::size_t i = 0; i < size; ++i) level.hits[surfaces.sample[i]].t = surfaces.t[i];
   batch.size = surfaces.size;
   std::copy_n(surfaces.sample.begin(), size, batch.ray.begin());
   std::copy_n(shading_.material.begin(), size, batch.material.begin());
@@ -189,12 +196,16 @@ void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces,
   batch.normal = surfaces.normal;
   batch.facing = surfaces.facing;
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
-    const Hit& hit = level.hits[batch.ray[i]];
-    const Ray ray = ray_of(level, batch.ray[i]);
     Place place;
     place.point = get(surfaces.point, i);
     place.facing = get(surfaces.facing, i);
     place.clearance = surfaces.clearance[i];
+    const Hit& hit = level.hits[batch.ray[i]];
+    if (!level.alone.empty() && level.alone[batch.ray[i]] && hit.t < farthest_alone_) {
+      put(batch.from, i, place.point + place.clearance * place.facing);  // leaving_point() of nothing near
+      continue;
+    }
+    const Ray ray = ray_of(level, batch.ray[i]);
     place.together = together_depth(ray, hit, place);
     put(batch.from, i, leaving_point(prepared_, ray, hit, place, stats.signs, isa_));
   }

@@ -11,6 +11,7 @@
 
 #include "common/model/surface_batch.h"
 #include "common/picture/frame.h"
+#include "raytrace/eye_packets.h"
 #include "raytrace/secondary.h"
 
 namespace sidelight::raytrace {
@@ -38,6 +39,7 @@ struct WaveRay {
 struct Level {
   std::vector<WaveRay> rays;  // none at the eye's level: those are the camera's
   std::vector<Hit> hits;
+  std::vector<std::uint8_t> alone;  // where known: nothing else stands near the hit (EyePackets)
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
   std::vector<double> cut_weight;                     // likewise
 };
@@ -87,6 +89,8 @@ class Wave {
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;
+  EyePackets eye_packets_;
+  double farthest_alone_ = 0;  // depth up to which Level::alone holds
   std::vector<Level> levels_;
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind
   ShadingBatch shading_;
