@@ -120,7 +120,7 @@ void keep_nearer(RayPacket& p, std::size_t first, std::uint32_t primitive, const
   std::uint32_t asked = mask_bits<F>(doubtful);
   if (p.any_hit && sure)
     // The light lies clearly before the surface that asks, which then is not in its way.
-    for (std::uint32_t bits = asked; bits != 0; bits &= bits - 1) {
+    for (std::uint32_t bits = asked & mask_bits<F>(met); bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       if (p.own[first + lane] == static_cast<std::int32_t>(primitive)) asked &= ~(1u << lane);
     }

@@ -36,7 +36,8 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       want_shadow_((options.layers & layer_bit(Layer::shadow)) != 0),
       want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
       want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples),
-      eye_packets_(prepared, camera, options.isa) {
+      eye_packets_(prepared, camera, options.isa),
+      shadow_packets_(prepared, options.isa) {
   farthest_alone_ = 16 * eye_packets_.reach() / eye_packets_.ray_length();
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
     surfaces_[static_cast<std::size_t>(kind)].kind = kind;
@@ -52,7 +53,7 @@ void Wave::trace(const Rect& pixels, RenderStats& stats) {
     const bool eye = depth == 0;
     find_hits(level, eye, stats);
     find_surfaces(level, eye, stats);
-    if (shadows_) add_lights(stats);
+    if (shadows_) add_lights(level, stats);
     sum_up(level, eye);
     next.rays.clear();
     if (secondary_) send_secondary(level, next, stats);
@@ -170,6 +171,7 @@ void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& st
   if (surfaces.want_t)
     for (std::size_t i = 0; i < size; ++i) level.hits[surfaces.sample[i]].t = surfaces.t[i];
   batch.size = surfaces.size;
+  batch.kind = surfaces.kind;
   std::copy_n(surfaces.sample.begin(), size, batch.ray.begin());
   std::copy_n(shading_.material.begin(), size, batch.material.begin());
   if (eye && want_normal_)
@@ -211,32 +213,62 @@ void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces,
   }
 }
 
-void Wave::add_lights(RenderStats& stats) {
+void Wave::add_lights(const Level& level, RenderStats& stats) {
   for (std::size_t b = 0; b < used_; ++b) {
     HitBatch& batch = batches_[b];
     batch.light = batch.lit.ambient;
     for (auto& channel : batch.missing) channel.fill(0);
   }
-  for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) add_light(light, stats);
+  for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) {
+    find_shadows(level, light, stats);
+    add_light(light);
+  }
+}
+
+ShadowQuery Wave::shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const {
+  ShadowQuery query{batch.from_of(i), level.hits[batch.ray[i]].primitive};
+  if (batch.kind != ObjectKind::sphere) return query;
+  const Sphere& sphere = scene_.spheres[primitive_ref(scene_, query.own).index];
+  if (glm::dot(get(batch.facing, i), query.from - sphere.center) <= 0) query.own = kNone;
+  return query;
 }
 
 // Where a shadow ray is blocked, the light's state becomes that of a surface in its own light: b_i = 0.
-void Wave::add_light(std::size_t light, RenderStats& stats) {
+void Wave::find_shadows(const Level& level, std::size_t light, RenderStats& stats) {
   const Light& source = scene_.lights[light];
+  // What is asked, batch by batch; then the answers in the same order.
+  const auto for_each_asked = [&](const auto& visit) {
+    for (std::size_t b = 0; b < used_; ++b)
+      for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
+        if (batches_[b].lit.light[light].state[i] == LightTerms::kAsk) visit(batches_[b], i);
+  };
+  queries_.clear();
+  for (std::size_t b = 0; b < used_; ++b)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
+      stats.self_shadowed += batches_[b].lit.light[light].state[i] == LightTerms::kSelfShadowed;
+  for_each_asked(
+      [&](const HitBatch& batch, std::size_t i) { queries_.push_back(shadow_query(level, batch, i)); });
+  stats.rays.shadow += queries_.size();
+  if (source.directional) {
+    dark_.clear();
+    for (const ShadowQuery& query : queries_)
+      dark_.push_back(blocker(prepared_, ray_to_light(query.from, source), nullptr, stats.signs, kRayStart,
+                              Precision::exact, isa_)
+                          .found());
+  } else {
+    shadow_packets_.trace(source, queries_, dark_, stats.signs);
+  }
+  std::size_t next = 0;
+  for_each_asked([&](HitBatch& batch, std::size_t i) {
+    if (dark_[next++] != 0) batch.lit.light[light].state[i] = LightTerms::kSelfShadowed;
+  });
+}
+
+void Wave::add_light(std::size_t light) {
   for (std::size_t b = 0; b < used_; ++b) {
     HitBatch& batch = batches_[b];
-    LightTerms& terms = batch.lit.light[light];
+    const LightTerms& terms = batch.lit.light[light];
     const auto size = static_cast<std::size_t>(batch.size);
-    for (std::size_t i = 0; i < size; ++i) {
-      if (terms.state[i] == LightTerms::kSelfShadowed) ++stats.self_shadowed;
-      if (terms.state[i] != LightTerms::kAsk) continue;
-      ++stats.rays.shadow;
-      const Ray ray = ray_to_light(batch.from_of(i), source);
-      if (blocker(prepared_, ray, source.directional ? nullptr : &source.position, stats.signs, kRayStart,
-                  Precision::exact, isa_)
-              .found())
-        terms.state[i] = LightTerms::kSelfShadowed;
-    }
     for (std::size_t channel = 0; channel < 3; ++channel)
       for (std::size_t i = 0; i < size; ++i) {
         const float total = terms.total[channel][i];

@@ -13,11 +13,13 @@
 #include "common/picture/frame.h"
 #include "raytrace/eye_packets.h"
 #include "raytrace/secondary.h"
+#include "raytrace/shadow_packets.h"
 
 namespace sidelight::raytrace {
 
 // Hits of one kind of primitive whose surfaces and light were found together, and the rays that leave there.
 struct HitBatch {
+  ObjectKind kind = ObjectKind::mesh;
   int size = 0;
   SurfaceBatch::Channel<std::uint32_t> ray, material;  // the ray's number in its level
   SurfaceBatch::Vectors from, normal, facing;          // leaving_point, N and Nv, where rays leave
@@ -69,8 +71,10 @@ class Wave {
   void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
   void find_leaving_points(const Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
                            RenderStats& stats) const;
-  void add_lights(RenderStats& stats);
-  void add_light(std::size_t light, RenderStats& stats);
+  void add_lights(const Level& level, RenderStats& stats);
+  void find_shadows(const Level& level, std::size_t light, RenderStats& stats);
+  ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
+  void add_light(std::size_t light);
   void sum_up(Level& level, bool eye);
   void send_secondary(Level& level, Level& next, RenderStats& stats) const;
   void bring_back(const Level& level, Level& parent) const;
@@ -91,6 +95,9 @@ class Wave {
   Rect pixels_;
   EyePackets eye_packets_;
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
+  ShadowPackets shadow_packets_;
+  std::vector<ShadowQuery> queries_;
+  std::vector<std::uint8_t> dark_;
   std::vector<Level> levels_;
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind
   ShadingBatch shading_;
