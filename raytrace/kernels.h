@@ -7,6 +7,11 @@
 
 namespace sidelight::raytrace {
 
+struct PrimitiveVisitor {
+  void* context;
+  void (*visit)(void* context, std::uint32_t primitive);
+};
+
 // Rays are finite; planes are left to the caller.
 struct Kernels {
   // Replaces `best` by what is nearer, of that which comes after `after`.
@@ -15,8 +20,11 @@ struct Kernels {
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);
   std::uint64_t (*visit_leaves)(const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
-  void (*visit_leaves_near)(const Bvh& bvh, const glm::dvec3& point, double distance,
-                            const LeafVisitor& visitor);
+  // All primitives of which stands_near() may be true at the point, where nearness() is at most `distance`.
+  void (*near_triangles)(const TriangleLeaves& leaves, const glm::dvec3& point, double distance,
+                         const PrimitiveVisitor& visitor);
+  void (*near_spheres)(const SphereLeaves& leaves, const glm::dvec3& point, double distance,
+                       const PrimitiveVisitor& visitor);
 };
 
 const Kernels& kernels_scalar();
