@@ -7,7 +7,12 @@
 
 namespace sidelight::raytrace {
 
-struct PrimitiveVisitor {
+// Of which primitives but `except` may stands_near() be true at the point, where nearness() is at most `distance`?
+// Those and some others are visited.
+struct NearQuestion {
+  glm::dvec3 point;
+  double distance;
+  std::uint32_t except;
   void* context;
   void (*visit)(void* context, std::uint32_t primitive);
 };
@@ -20,11 +25,8 @@ struct Kernels {
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);
   std::uint64_t (*visit_leaves)(const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
-  // All primitives of which stands_near() may be true at the point, where nearness() is at most `distance`.
-  void (*near_triangles)(const TriangleLeaves& leaves, const glm::dvec3& point, double distance,
-                         const PrimitiveVisitor& visitor);
-  void (*near_spheres)(const SphereLeaves& leaves, const glm::dvec3& point, double distance,
-                       const PrimitiveVisitor& visitor);
+  void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
+  void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);
 };
 
 const Kernels& kernels_scalar();

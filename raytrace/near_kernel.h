@@ -15,11 +15,11 @@ template <class D>
   return (lane_abs<D>(v.x) + lane_abs<D>(v.y)) + lane_abs<D>(v.z);
 }
 
-// may_be_near() of place.cpp: box, plane and edges. A bit each for `count` triangles from the lane `leaf` points to.
+// may_be_near() of place.cpp: box, plane and edges. A bit each for the lanes from `leaf` on; `asked` are those that matter.
 template <class D>
 [[gnu::always_inline]] inline std::uint32_t near_bits(const TriangleLeaves&, const double* leaf,
-                                                      std::uint32_t count, const glm::dvec3& point,
-                                                      double distance) {
+                                                      std::uint32_t count, std::uint32_t asked,
+                                                      const glm::dvec3& point, double distance) {
   const Vec3<D> p{D(point.x), D(point.y), D(point.z)};
   const D room(distance);
   const auto corner = [&](std::uint32_t k) {
@@ -32,7 +32,7 @@ template <class D>
   };
   const Mask<D> in_box =
       !(outside(p.x, v0.x, v1.x, v2.x) || outside(p.y, v0.y, v1.y, v2.y) || outside(p.z, v0.z, v1.z, v2.z));
-  if (!any<D>(in_box)) return 0;
+  if ((mask_bits<D>(in_box) & asked) == 0) return 0;
 
   const Vec3<D> e1 = v1 - v0, e2 = v2 - v0, q = p - v0, n = cross(e1, e2);
   const D area = size_of(e1) * size_of(e2), rounding(0x1p-48);
@@ -48,8 +48,8 @@ template <class D>
 // height's own rounding is one.)
 template <class D>
 [[gnu::always_inline]] inline std::uint32_t near_bits(const SphereLeaves&, const double* leaf,
-                                                      std::uint32_t count, const glm::dvec3& point,
-                                                      double distance) {
+                                                      std::uint32_t count, std::uint32_t,
+                                                      const glm::dvec3& point, double distance) {
   const Vec3<D> f{D(point.x) - load<D>(leaf), D(point.y) - load<D>(leaf + count),
                   D(point.z) - load<D>(leaf + 2 * count)};
   const D radius = load<D>(leaf + 3 * count), room(2 * distance), square = dot(f, f);

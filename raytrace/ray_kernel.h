@@ -10,22 +10,39 @@
 
 namespace sidelight::raytrace {
 
-// A primitive that a filter left, and what of it is certain.
+// A primitive that a filter left, with its kRows numbers from the leaf.
+template <int kRows>
 struct Candidate {
   std::uint32_t primitive;
-  const double* numbers;  // in its leaf, `stride` apart
-  std::uint32_t stride;
-  bool met;  // a triangle that the ray surely meets: only its depth is open
+  const double* numbers;
+  std::uint32_t stride;  // from one number to the next
+  bool met;              // a triangle that the ray surely meets: only its depth is open
+
+  glm::dvec3 corner(std::uint32_t k) const {
+    const double* row = numbers + 3 * k * stride;
+    return {row[0], row[stride], row[2 * stride]};
+  }
+
+  // A triangle at right angles to an axis, in whose plane the ray starts, as rays do that leave a floor at y = 0: a miss,
+  // and one that the signs of visibility.h would find by exact arithmetic only.
+  bool starts_in_flat(const glm::dvec3& origin) const {
+    const auto all_at = [&](std::uint32_t axis, double o) {
+      return numbers[axis * stride] == o && numbers[(3 + axis) * stride] == o &&
+             numbers[(6 + axis) * stride] == o;
+    };
+    return all_at(0, origin.x) || all_at(1, origin.y) || all_at(2, origin.z);
+  }
 
   Hit hit(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts) const {
-    if (!met) return intersect(scene, primitive, ray, after, counts);
-    ++counts.tests;
-    counts.filtered += 4;
-    const auto corner = [&](std::uint32_t k) {
-      const double* row = numbers + 3 * k * stride;
-      return glm::dvec3(row[0], row[stride], row[2 * stride]);
-    };
-    return met_triangle(corner(0), corner(1), corner(2), primitive, ray, after);
+    if constexpr (kRows == TriangleLeaves::kRowCount) {
+      const bool missed = !met && starts_in_flat(ray.origin);
+      if (met || missed) {
+        ++counts.tests;
+        counts.filtered += 4;
+        return missed ? Hit{} : met_triangle(corner(0), corner(1), corner(2), primitive, ray, after);
+      }
+    }
+    return intersect(scene, primitive, ray, after, counts);
   }
 };
 
@@ -44,7 +61,7 @@ template <class F, class Filter, int kRows, class Ask>
         for (std::uint32_t bits = verdict.may; bits != 0 && current >= 0; bits &= bits - 1) {
           const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
           const bool met = (verdict.must >> i & 1) != 0;
-          current = ask(Candidate{leaves.bvh.items[first + i], leaf + i, count, met}, current);
+          current = ask(Candidate<kRows>{leaves.bvh.items[first + i], leaf + i, count, met}, current);
         }
         return limit = current;
       });
@@ -54,20 +71,23 @@ template <class F, class Filter, int kRows, class Ask>
 template <class F, class D>
 [[gnu::flatten]] void nearest_in_lanes(const Prepared& prepared, const Ray& ray, const Hit& after, Hit& best,
                                        SignCounts& counts) {
-  const auto ask = [&](const Candidate& candidate, double) {
+  const auto ask = [&](const auto& candidate, double) {
     const Hit hit = candidate.hit(prepared.scene, ray, after, counts);
     if (hit.found() && before(hit, best)) best = hit;
     return best.t;
   };
-  ask_leaves<F>(prepared.triangles, TriangleFilter<D>(ray), ray, best.t, counts, ask);
-  ask_leaves<F>(prepared.spheres, SphereFilter<D>(ray, prepared.spheres.bvh.reach), ray, best.t, counts, ask);
+  if (!prepared.triangles.bvh.nodes.empty())
+    ask_leaves<F>(prepared.triangles, TriangleFilter<D>(ray), ray, best.t, counts, ask);
+  if (!prepared.spheres.bvh.nodes.empty())
+    ask_leaves<F>(prepared.spheres, SphereFilter<D>(ray, prepared.spheres.bvh.reach), ray, best.t, counts,
+                  ask);
 }
 
 template <class F, class D>
 [[gnu::flatten]] Hit blocker_in_lanes(const Prepared& prepared, const Ray& ray, const glm::dvec3* light,
                                       const Hit& start, SignCounts& counts) {
   Hit found;
-  const auto ask = [&](const Candidate& candidate, double limit) {
+  const auto ask = [&](const auto& candidate, double limit) {
     if (!prepared.all_cast_shadows && !casts_shadow(prepared.scene, candidate.primitive)) return limit;
     const Hit hit = candidate.hit(prepared.scene, ray, start, counts);
     if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return limit;
@@ -75,7 +95,9 @@ template <class F, class D>
     return -1.0;
   };
   const double limit = light ? 1 : std::numeric_limits<double>::infinity();
-  if (ask_leaves<F>(prepared.triangles, TriangleFilter<D>(ray), ray, limit, counts, ask) >= 0)
+  if (!prepared.triangles.bvh.nodes.empty())
+    ask_leaves<F>(prepared.triangles, TriangleFilter<D>(ray), ray, limit, counts, ask);
+  if (!found.found() && !prepared.spheres.bvh.nodes.empty())
     ask_leaves<F>(prepared.spheres, SphereFilter<D>(ray, prepared.spheres.bvh.reach), ray, limit, counts,
                   ask);
   return found;
@@ -90,28 +112,29 @@ template <class F, class D>
 }
 
 template <class F, class D, int kRows>
-[[gnu::always_inline]] inline void ask_leaves_near(const Leaves<kRows>& leaves, const glm::dvec3& point,
-                                                   double distance, const PrimitiveVisitor& visitor) {
-  walk_near<F>(leaves.bvh, point, distance, [&](std::uint32_t first, std::uint32_t count) {
-    std::uint32_t bits = 0;
+[[gnu::always_inline]] inline void ask_leaves_near(const Leaves<kRows>& leaves,
+                                                   const NearQuestion& question) {
+  walk_near<F>(leaves.bvh, question.point, question.distance, [&](std::uint32_t first, std::uint32_t count) {
+    const std::uint32_t* items = leaves.bvh.items.data() + first;
+    std::uint32_t others = 0, bits = 0;
+    for (std::uint32_t i = 0; i < count; ++i) others |= std::uint32_t{items[i] != question.except} << i;
     for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>)
-      bits |= near_bits<D>(leaves, leaves.leaf(first) + lane, count, point, distance) << lane;
-    for (bits &= (1u << count) - 1; bits != 0; bits &= bits - 1)
-      visitor.visit(visitor.context,
-                    leaves.bvh.items[first + static_cast<std::uint32_t>(std::countr_zero(bits))]);
+      bits |= near_bits<D>(leaves, leaves.leaf(first) + lane, count, others >> lane, question.point,
+                           question.distance)
+              << lane;
+    for (bits &= others; bits != 0; bits &= bits - 1)
+      question.visit(question.context, items[static_cast<std::uint32_t>(std::countr_zero(bits))]);
   });
 }
 
 template <class F, class D>
-[[gnu::flatten]] void near_triangles_in_lanes(const TriangleLeaves& leaves, const glm::dvec3& point,
-                                              double distance, const PrimitiveVisitor& visitor) {
-  ask_leaves_near<F, D>(leaves, point, distance, visitor);
+[[gnu::flatten]] void near_triangles_in_lanes(const TriangleLeaves& leaves, const NearQuestion& question) {
+  ask_leaves_near<F, D>(leaves, question);
 }
 
 template <class F, class D>
-[[gnu::flatten]] void near_spheres_in_lanes(const SphereLeaves& leaves, const glm::dvec3& point,
-                                            double distance, const PrimitiveVisitor& visitor) {
-  ask_leaves_near<F, D>(leaves, point, distance, visitor);
+[[gnu::flatten]] void near_spheres_in_lanes(const SphereLeaves& leaves, const NearQuestion& question) {
+  ask_leaves_near<F, D>(leaves, question);
 }
 
 template <class F, class D>

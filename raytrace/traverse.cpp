@@ -116,17 +116,20 @@ Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, S
 glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,
                          SignCounts& counts, Isa isa) {
   std::vector<std::uint32_t> near;  // empty, but at edges
-  const auto add = [&](std::uint32_t primitive) {
+  auto add = [&](std::uint32_t primitive) {
     if (stands_near(prepared.scene, primitive, ray, hit, place, counts)) near.push_back(primitive);
   };
   for (const std::uint32_t primitive : prepared.planes) add(primitive);
-  const auto distance = [&](const Bvh& bvh) { return nearness(ray, hit, place, bvh.reach); };
-  const PrimitiveVisitor visitor{
-      const_cast<void*>(static_cast<const void*>(&add)),
-      [](void* to, std::uint32_t primitive) { (*static_cast<const decltype(add)*>(to))(primitive); }};
+  const auto question = [&](const Bvh& bvh) {
+    return NearQuestion{
+        place.point, nearness(ray, hit, place, bvh.reach), hit.primitive, &add,
+        [](void* to, std::uint32_t primitive) { (*static_cast<decltype(add)*>(to))(primitive); }};
+  };
   const Kernels& kernels = kernels_for(isa);
-  kernels.near_triangles(prepared.triangles, place.point, distance(prepared.triangles.bvh), visitor);
-  kernels.near_spheres(prepared.spheres, place.point, distance(prepared.spheres.bvh), visitor);
+  if (!prepared.triangles.bvh.nodes.empty())
+    kernels.near_triangles(prepared.triangles, question(prepared.triangles.bvh));
+  if (!prepared.spheres.bvh.nodes.empty())
+    kernels.near_spheres(prepared.spheres, question(prepared.spheres.bvh));
   std::sort(near.begin(), near.end());
   return leaving_point(prepared.scene, ray, hit, place, near, counts);
 }

@@ -16,15 +16,21 @@ using Ints = decltype(to_bits(F{}));
 // The smaller (greater) of each lane; a where they compare equal. Not for NaN.
 template <class F>
 [[gnu::always_inline]] inline F lane_min(const F& a, const F& b) {
-  return select<F>(b < a, b, a);
+  if constexpr (kLanes<F> == 1)
+    return b < a ? b : a;
+  else
+    return stdx::min(b, a);  // one instruction, which keeps its second operand where they compare equal
 }
 template <class F>
 [[gnu::always_inline]] inline F lane_max(const F& a, const F& b) {
-  return select<F>(a < b, b, a);
+  if constexpr (kLanes<F> == 1)
+    return a < b ? b : a;
+  else
+    return stdx::max(b, a);
 }
 template <class F>
 [[gnu::always_inline]] inline F lane_abs(const F& a) {
-  return select<F>(a < F(0), -a, a);
+  return lane_max<F>(a, -a);
 }
 
 // Of a mask of F's lanes: whether any holds, and how many do.
