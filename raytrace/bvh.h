@@ -71,11 +71,6 @@ struct LeafVisitor {
 // Returns the number of nodes entered. Neither it nor the order depends on `isa`.
 std::uint64_t visit_leaves(Isa isa, const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
 
-// Visits every leaf whose box reaches to within `distance` of the point along each axis, and some others. What is
-// returned by visit is not looked at.
-void visit_leaves_near(Isa isa, const Bvh& bvh, const glm::dvec3& point, double distance,
-                       const LeafVisitor& visitor);
-
 // The same, item by item: leaf(item, limit) returns the new limit.
 template <class Leaf>
 std::uint64_t traverse(const Bvh& bvh, const Ray& ray, double limit, const Leaf& leaf, Isa isa = best_isa()) {
@@ -90,22 +85,6 @@ std::uint64_t traverse(const Bvh& bvh, const Ray& ray, double limit, const Leaf&
                            current = self.leaf(self.bvh.items[i], current);
                          return current;
                        }});
-}
-
-// The same: visit(item).
-template <class Visit>
-void visit_near(const Bvh& bvh, const glm::dvec3& point, double distance, const Visit& visit,
-                Isa isa = best_isa()) {
-  struct Context {
-    const Bvh& bvh;
-    const Visit& visit;
-  } context{bvh, visit};
-  visit_leaves_near(isa, bvh, point, distance,
-                    {&context, [](void* to, std::uint32_t first, std::uint32_t count, double) {
-                       const auto& self = *static_cast<Context*>(to);
-                       for (std::uint32_t i = first; i < first + count; ++i) self.visit(self.bvh.items[i]);
-                       return 0.0;
-                     }});
 }
 
 }  // namespace sidelight::raytrace

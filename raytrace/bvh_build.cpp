@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "common/math/lanes.h"
 #include "common/parallel.h"
@@ -86,7 +87,10 @@ struct Split {
 
 class Builder {
  public:
-  Builder(std::vector<Reference>& references, float unit) : references_(references), unit_(unit) {}
+  Builder(std::span<Reference> references, float unit)
+      : references_(references),
+        spare_(std::make_unique_for_overwrite<Reference[]>(references.size())),
+        unit_(unit) {}
 
   // Nodes of the subtree over `range`, its root first, into `nodes`; subtrees of at most `task_size` items that begin
   // below it are left out and listed in `tasks`, where one is given.
@@ -204,43 +208,28 @@ class Builder {
     constexpr int kDepthOfHalving = Bvh::kMaxDepth - 34;
     const Binning binning(range);
     const Split split = range.depth < kDepthOfHalving ? best_split(range, binning) : Split{};
-    std::pair<Range, Range> parts;
-    parts.first.depth = parts.second.depth = range.depth;
-    if (split.axis < 0)
-      halve(range, parts);
-    else
-      partition(range, binning, split, parts);
-    return parts;
+    const std::uint32_t count = split.axis < 0 ? halve(range) : partition(range, binning, split);
+    return {part(range.first, count, range.depth),
+            part(range.first + count, range.count - count, range.depth)};
   }
 
-  [[gnu::always_inline]] static void add(Range& part, const Bounds& box) {
-    ++part.count;
-    part.boxes.grow(box);
-    part.centers.grow(center_of(box));
-  }
-
-  void partition(const Range& range, const Binning& binning, const Split& split,
-                 std::pair<Range, Range>& parts) {
+  // Without a branch that nobody could predict: every reference is written to both sides, and stays on its own. The
+  // number of those on the left.
+  std::uint32_t partition(const Range& range, const Binning& binning, const Split& split) {
     const auto axis = static_cast<std::size_t>(split.axis);
-    Range left, right;
-    std::uint32_t begin = range.first, end = range.first + range.count;
-    while (begin < end) {
-      const Bounds box = references_[begin].box();
-      if (binning.of(box)[axis] < split.bin) {
-        add(left, box);
-        ++begin;
-      } else {
-        add(right, box);
-        std::swap(references_[begin], references_[--end]);
-      }
+    Reference *left = references_.data() + range.first, *right = spare_.get() + range.first;
+    for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
+      const Reference reference = references_[k];
+      const bool goes_left = binning.of(reference.box())[axis] < split.bin;
+      *left = *right = reference;
+      left += goes_left;
+      right += !goes_left;
     }
-    left.first = range.first;
-    right.first = begin;
-    left.depth = right.depth = range.depth;
-    parts = {left, right};
+    std::copy(spare_.get() + range.first, right, left);
+    return static_cast<std::uint32_t>(left - references_.data()) - range.first;
   }
 
-  void halve(const Range& range, std::pair<Range, Range>& parts) {
+  std::uint32_t halve(const Range& range) {
     const auto begin = references_.begin() + range.first;
     const Quad width = range.boxes.high - range.boxes.low;
     const std::size_t axis =
@@ -250,13 +239,21 @@ class Builder {
           const float center_a = a.low[axis] + a.high[axis], center_b = b.low[axis] + b.high[axis];
           return center_a < center_b || (center_a == center_b && a.item < b.item);
         });
-    parts.first.first = range.first;
-    parts.second.first = range.first + range.count / 2;
-    for (std::uint32_t i = 0; i < range.count; ++i)
-      add(i < range.count / 2 ? parts.first : parts.second, references_[range.first + i].box());
+    return range.count / 2;
   }
 
-  std::vector<Reference>& references_;
+  Range part(std::uint32_t first, std::uint32_t count, int depth) const {
+    Range range{first, count, {}, {}, depth};
+    for (std::uint32_t k = first; k < first + count; ++k) {
+      const Bounds box = references_[k].box();
+      range.boxes.grow(box);
+      range.centers.grow(center_of(box));
+    }
+    return range;
+  }
+
+  std::span<Reference> references_;
+  std::unique_ptr<Reference[]> spare_;  // for partition()
   float unit_;
 };
 
@@ -270,7 +267,6 @@ Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uin
   // Where the boxes are. A tree far from the world's origin is kept relative to its middle.
   constexpr int kBlock = 4096;
   const auto size = static_cast<int>(items.size()), blocks = (size + kBlock - 1) / kBlock;
-  std::vector<Box> boxes(items.size());
   std::vector<Box> of_block(static_cast<std::size_t>(blocks));
   const auto for_each_item = [&](const auto& body) {
     parallel_for(blocks, threads, [&](int block, int) {
@@ -278,10 +274,7 @@ Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uin
         body(static_cast<std::size_t>(block), static_cast<std::size_t>(i));
     });
   };
-  for_each_item([&](std::size_t block, std::size_t i) {
-    boxes[i] = box_of(items[i]);
-    of_block[block].grow(boxes[i]);
-  });
+  for_each_item([&](std::size_t block, std::size_t i) { of_block[block].grow(box_of(items[i])); });
   Box world;
   for (const Box& box : of_block) world.grow(box);
   for (int axis = 0; axis < 3; ++axis) {
@@ -290,10 +283,12 @@ Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uin
       bvh.center[axis] = 0.5 * world.low[axis] + 0.5 * world.high[axis];
   }
 
-  std::vector<Reference> references(items.size());
+  const auto storage = std::make_unique_for_overwrite<Reference[]>(items.size());
+  const std::span<Reference> references(storage.get(), items.size());
   std::vector<Range> range_of_block(static_cast<std::size_t>(blocks));
   for_each_item([&](std::size_t block, std::size_t i) {
-    const glm::dvec3 low = boxes[i].low - bvh.center, high = boxes[i].high - bvh.center;
+    const Box box = box_of(items[i]);
+    const glm::dvec3 low = box.low - bvh.center, high = box.high - bvh.center;
     references[i] = {{round_down(low.x), round_down(low.y), round_down(low.z), 0},
                      {round_up(high.x), round_up(high.y), round_up(high.z)},
                      items[i]};

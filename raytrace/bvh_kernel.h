@@ -44,10 +44,12 @@ template <class F>
   }
   const double pad = 0x1p-47 * reach + 0x1p-120;
   // The power of two below `longest`, which lies between 1e-100 and the greatest double.
-  out.scale = std::bit_cast<double>(std::bit_cast<std::uint64_t>(longest) & 0x7ff0000000000000u);
+  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(longest) & 0x7ff0000000000000u;
+  out.scale = std::bit_cast<double>(exponent);
+  const double unscale = std::bit_cast<double>(0x7fe0000000000000u - exponent);
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const double o = origin[axis] - bvh.center[axis], d = direction[axis] / out.scale;
+    const double o = origin[axis] - bvh.center[axis], d = direction[axis] * unscale;
     const double rounding = pad + 0x1p-23 * magnitude(o);
     const bool far_away = magnitude(o) > double{kFar};
     const float above = far_away ? kFar : static_cast<float>(o + rounding);

@@ -7,6 +7,16 @@
 
 namespace sidelight::raytrace {
 
+// Of which primitives but `except` may stands_near() be true at the point, where nearness() is at most `distance`?
+// Those and some others are visited.
+struct NearQuestion {
+  glm::dvec3 point;
+  double distance;
+  std::uint32_t except;
+  void* context;
+  void (*visit)(void* context, std::uint32_t primitive);
+};
+
 // Rays are finite; planes are left to the caller.
 struct Kernels {
   // Replaces `best` by what is nearer, of that which comes after `after`.
@@ -15,8 +25,8 @@ struct Kernels {
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);
   std::uint64_t (*visit_leaves)(const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
-  void (*visit_leaves_near)(const Bvh& bvh, const glm::dvec3& point, double distance,
-                            const LeafVisitor& visitor);
+  void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
+  void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);
 };
 
 const Kernels& kernels_scalar();

@@ -9,6 +9,11 @@
 
 namespace sidelight::raytrace {
 
+// One bit for each primitive of a leaf: those that may be met, and those of them that surely are, at a positive depth.
+struct LeafVerdict {
+  std::uint32_t may = 0, must = 0;
+};
+
 inline constexpr double kUnit = 0x1p-53;  // unit roundoff
 // Depths of visibility.h are good to 2^-18.
 inline constexpr double kDepthSlack = 1 + 0x1p-16;
@@ -16,48 +21,46 @@ inline constexpr double kDepthSlack = 1 + 0x1p-16;
 // S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: sheared so that the ray runs
 // along an axis, a triangle is seen as a flat one, and its edge functions E_k are those of the plane.
 //
-// Rounding. A bounds all components of a = v - o, and those of a, sheared, are x = a_x - s_x a_z with |s_x| <= 1: off by
-// u A for s_x, u A for the product, u |x| <= 2 u A for the difference. With d = 5 u A and m = |x| + |y| of a corner,
-// E_k = x_i y_j - x_j y_i is off by d (m_i + m_j) + 2 d² for that, and by 2 u (|x_i y_j| + |x_j y_i|) <= d (m_i + m_j) of
-// its own. So s (m_0 + m_1 + m_2 + s), s = 16 u A, bounds the error of each E_k, and A times it that of E_k a_z.
-//   t d_z = sum E_k a_kz / sum E_k:
-// where no two E_k are surely of opposite sign, |sum E_k a_kz| <= (|sum E_k| + 6 error) A; so 16 errors leave no doubt.
+// Rounding. Of a corner a = v - o, sheared, x = a_x - s_x a_z with |s_x| <= 1 is off by 2 u |a_z| for s_x, u |a_z| for the
+// product and u |x| for the difference. With m = |x| + |y| and W at least all 3 |a_z| + m, E_k = x_i y_j - x_j y_i is off
+// by u W (m_i + m_j) + 2 u² W² for that, and by 2 u m_i m_j of its own: error = 4 u W (m_0 + m_1 + m_2 + 4 u W) is more.
+//   t d_z = N / sum E_k, N = sum E_k a_kz
+// Where no two E_k are surely of opposite sign, |E_k| are at most |sum E_k| + 6 errors together, and u |sum E_k| is
+// below a quarter of an error: N is off by less than 4 errors times sum |a_kz|, its products and sums included.
 template <class D>
 class TriangleFilter {
  public:
   static constexpr int kRows = 9;
 
-  TriangleFilter(const Ray& ray, double reach) {
+  explicit TriangleFilter(const Ray& ray) {
     const auto magnitude = [](double x) { return x < 0 ? -x : x; };
     const double x = magnitude(ray.direction.x), y = magnitude(ray.direction.y),
                  z = magnitude(ray.direction.z);
     const int axis_z = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
     axis_ = {(axis_z + 1) % 3, (axis_z + 2) % 3, axis_z};
-    double largest = reach;
-    for (std::size_t i = 0; i < 3; ++i) {
-      origin_[i] = ray.origin[axis_[i]];
-      largest = lane_max(largest, magnitude(origin_[i]));
-    }
-    const double d_z = ray.direction[axis_z];
-    shear_x_ = ray.direction[axis_[0]] / d_z;
-    shear_y_ = ray.direction[axis_[1]] / d_z;
-    inverse_z_ = 1 / d_z;
-    slack_ = 16 * kUnit * (2 * largest);
-    depth_slack_ = 16 * (2 * largest) * magnitude(inverse_z_);
+    for (std::size_t i = 0; i < 3; ++i) origin_[i] = ray.origin[axis_[i]];
+    inverse_z_ = 1 / ray.direction[axis_z];
+    shear_x_ = ray.direction[axis_[0]] * inverse_z_;
+    shear_y_ = ray.direction[axis_[1]] * inverse_z_;
   }
 
-  // One bit for each triangle of a leaf of `count` that may be met at a depth in (0, limit].
-  std::uint32_t operator()(const double* leaf, std::uint32_t count, double limit) const {
-    std::uint32_t bits = 0;
-    for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>)
-      bits |= may_meet(leaf + lane, count, limit) << lane;
-    return bits & ((1u << count) - 1);
+  // Of the `count` triangles of a leaf, which are met at a depth in (0, limit].
+  LeafVerdict operator()(const double* leaf, std::uint32_t count, double limit) const {
+    LeafVerdict verdict;
+    for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>) {
+      const LeafVerdict of_lanes = meet(leaf + lane, count, limit);
+      verdict.may |= of_lanes.may << lane;
+      verdict.must |= of_lanes.must << lane;
+    }
+    verdict.may &= (1u << count) - 1;
+    verdict.must &= verdict.may;
+    return verdict;
   }
 
  private:
-  std::uint32_t may_meet(const double* leaf, std::uint32_t count, double limit) const {
+  LeafVerdict meet(const double* leaf, std::uint32_t count, double limit) const {
     D x[3], y[3], z[3];
-    D size(slack_);
+    D size(0), depth(0), widest(0);
     for (int k = 0; k < 3; ++k) {
       const auto a = [&](std::size_t i) {
         return load<D>(leaf + static_cast<std::uint32_t>(3 * k + axis_[i]) * count) - D(origin_[i]);
@@ -65,25 +68,29 @@ class TriangleFilter {
       z[k] = a(2);
       x[k] = a(0) - D(shear_x_) * z[k];
       y[k] = a(1) - D(shear_y_) * z[k];
-      size = size + (lane_abs<D>(x[k]) + lane_abs<D>(y[k]));
+      const D m = lane_abs<D>(x[k]) + lane_abs<D>(y[k]), far = lane_abs<D>(z[k]);
+      size = size + m;
+      depth = depth + far;
+      widest = lane_max<D>(widest, D(3) * far + m);
     }
-    const D error = D(slack_) * size;
+    const D slack = D(4 * kUnit) * widest;
+    const D error = slack * (size + slack);
     const D e0 = x[1] * y[2] - x[2] * y[1], e1 = x[2] * y[0] - x[0] * y[2], e2 = x[0] * y[1] - x[1] * y[0];
     const D low = lane_min<D>(lane_min<D>(e0, e1), e2), high = lane_max<D>(lane_max<D>(e0, e1), e2);
 
     const D sum = (e0 + e1) + e2, depths = ((e0 * z[0] + e1 * z[1]) + e2 * z[2]) * D(inverse_z_);
-    const Mask<D> negative = sum < D(0);
-    const D turned = select<D>(negative, -depths, depths);  // t |sum|
-    const D doubt = error * D(depth_slack_);
+    const D turned = select<D>(sum < D(0), -depths, depths);  // t |sum|
+    const D doubt = error * depth * D(4 * (inverse_z_ < 0 ? -inverse_z_ : inverse_z_));
+    const D total = lane_abs<D>(sum), margin = D(4) * error;
     const Mask<D> apart = low < -error && high > error;  // of different sign
-    const Mask<D> behind = turned + doubt < D(0);
-    const Mask<D> beyond = turned - doubt > D(limit * kDepthSlack) * (lane_abs<D>(sum) + D(4) * error);
-    return mask_bits<D>(!(apart || behind || beyond));
+    const Mask<D> behind = turned<-doubt, beyond = turned - doubt> D(limit * kDepthSlack) * (total + margin);
+    const Mask<D> met = (low > error || high < -error) && turned > doubt;
+    return {mask_bits<D>(!(apart || (total > margin && (behind || beyond)))), mask_bits<D>(met)};
   }
 
   std::array<int, 3> axis_;
   std::array<double, 3> origin_;
-  double shear_x_, shear_y_, inverse_z_, slack_, depth_slack_;
+  double shear_x_, shear_y_, inverse_z_;
 };
 
 // Rounding. A bounds all components of f = o - c and the radius. The point of the line that is nearest to the centre is
@@ -108,12 +115,12 @@ class SphereFilter {
     inverse_length_ = 1 / square_root(square_);
   }
 
-  // One bit for each sphere of a leaf of `count` that may be met at a depth in (0, limit].
-  std::uint32_t operator()(const double* leaf, std::uint32_t count, double limit) const {
+  // Of the `count` spheres of a leaf, which may be met at a depth in (0, limit].
+  LeafVerdict operator()(const double* leaf, std::uint32_t count, double limit) const {
     std::uint32_t bits = 0;
     for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>)
       bits |= may_meet(leaf + lane, count, limit) << lane;
-    return bits & ((1u << count) - 1);
+    return {bits & ((1u << count) - 1), 0};
   }
 
  private:

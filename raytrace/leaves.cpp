@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "raytrace/leaves.h"
 
+#include <algorithm>
+
 #include "common/parallel.h"
 
 namespace sidelight::raytrace {
@@ -21,11 +23,13 @@ std::vector<std::uint32_t> primitives_of(const Scene& scene, ObjectKind kind) {
 template <int kRows, class Numbers>
 void fill_rows(Leaves<kRows>& leaves, int threads, const Numbers& numbers) {
   const Bvh& bvh = leaves.bvh;
-  leaves.rows.resize(kRows * bvh.items.size() + Leaves<kRows>::kPadding);
+  const std::size_t size = kRows * bvh.items.size();
+  leaves.rows = std::make_unique_for_overwrite<double[]>(size + Leaves<kRows>::kPadding);
+  std::fill_n(leaves.rows.get() + size, Leaves<kRows>::kPadding, 0.0);
   parallel_for(static_cast<int>(bvh.nodes.size()), threads, [&](int node, int) {
     const BvhNode& parent = bvh.nodes[static_cast<std::size_t>(node)];
     for (std::size_t slot = 0; slot < BvhNode::kWidth; ++slot) {
-      double* row = leaves.rows.data() + std::size_t{kRows} * parent.first[slot];
+      double* row = leaves.rows.get() + std::size_t{kRows} * parent.first[slot];
       for (std::uint32_t i = 0; i < parent.count[slot]; ++i) {
         const std::array<double, kRows> values = numbers(bvh.items[parent.first[slot] + i]);
         for (std::size_t r = 0; r < kRows; ++r) row[r * parent.count[slot] + i] = values[r];

@@ -21,12 +21,13 @@ class Prepared {
   const Scene& scene;
   Needs needs;
   ShadingTablesOf<float> tables;
-  ShadingTablesOf<double> tables_in_double;   // for reference images
+  ShadingTablesOf<double> tables_in_double;  // for reference images
   TriangleLeaves triangles;
   SphereLeaves spheres;
-  std::vector<std::uint32_t> planes;    // primitive numbers: infinite, so met one by one
-  std::vector<std::uint32_t> solids;    // objects that bound a medium; empty where refraction is off
-  std::vector<Bounds> bounds;           // of each solid
+  bool all_cast_shadows = true;       // as far as materials say
+  std::vector<std::uint32_t> planes;  // primitive numbers: infinite, so met one by one
+  std::vector<std::uint32_t> solids;  // objects that bound a medium; empty where refraction is off
+  std::vector<Bounds> bounds;         // of each solid
 
   template <class Real>
   const ShadingTablesOf<Real>& tables_in() const {
@@ -36,6 +37,8 @@ class Prepared {
       return tables_in_double;
   }
 };
+
+bool casts_shadow(const Scene& scene, std::uint32_t primitive);
 
 // How triangles are decided: exactly, or as a fault on purpose (visibility_float.h).
 enum class Precision { exact, in_float };
@@ -50,9 +53,6 @@ Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCoun
 // Only what is met after `start` counts.
 Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
             const Hit& start = kRayStart, Precision precision = Precision::exact, Isa isa = best_isa());
-// The hit of that one primitive, if it blocks.
-Hit blocking_hit(const Prepared& prepared, std::uint32_t primitive, const Ray& ray, const glm::dvec3* light,
-                 const Hit& start, SignCounts& counts);
 
 // Where rays start that leave `place`, at which `ray` met `hit`: leaving_point of all that stands near.
 glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,

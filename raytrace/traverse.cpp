@@ -16,10 +16,6 @@ bool is_finite(const Ray& ray) {
   return std::isfinite(sum.x + sum.y + sum.z) && ray.direction != glm::dvec3(0);
 }
 
-bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
-  return scene.materials[primitive_material(scene, primitive)].casts_shadow;
-}
-
 // All primitives whose boxes may be met at a depth <= limit, unfiltered, and all planes: visit(primitive, limit) returns
 // the new limit, negative to stop.
 template <class Visit>
@@ -37,8 +33,8 @@ void candidates(const Prepared& prepared, const Ray& ray, double limit, SignCoun
 
 // intersect_one: intersect, or intersect_in_float.
 template <auto intersect_one>
-Hit blocking_hit_by(const Scene& scene, std::uint32_t primitive, const Ray& ray, const glm::dvec3* light,
-                    const Hit& start, SignCounts& counts) {
+Hit blocking_hit(const Scene& scene, std::uint32_t primitive, const Ray& ray, const glm::dvec3* light,
+                 const Hit& start, SignCounts& counts) {
   if (!casts_shadow(scene, primitive)) return {};
   const Hit hit = intersect_one(scene, primitive, ray, start, counts);
   if (hit.found() && (!light || before_light(scene, hit, ray, *light, counts))) return hit;
@@ -62,7 +58,7 @@ Hit blocker_in_float(const Prepared& prepared, const Ray& ray, const glm::dvec3*
   Hit found;
   const double limit = light ? 1 : std::numeric_limits<double>::infinity();
   candidates(prepared, ray, limit, counts, isa, [&](std::uint32_t primitive, double current) {
-    found = blocking_hit_by<intersect_in_float>(prepared.scene, primitive, ray, light, start, counts);
+    found = blocking_hit<intersect_in_float>(prepared.scene, primitive, ray, light, start, counts);
     return found.found() ? -1.0 : current;
   });
   return found;
@@ -77,6 +73,8 @@ Prepared::Prepared(const Scene& s, const Needs& n, int threads)
       tables_in_double(make_shading_tables<double>(s, n)),
       triangles(triangle_leaves(s, threads)),
       spheres(sphere_leaves(s, threads)) {
+  for (const Material& material : scene.materials)
+    all_cast_shadows = all_cast_shadows && material.casts_shadow;
   for (const Object& object : scene.objects)
     if (object.kind == ObjectKind::plane) planes.push_back(object.first_primitive);
   if (!scene.trace.refraction || !needs[Need::refraction]) return;
@@ -85,6 +83,10 @@ Prepared::Prepared(const Scene& s, const Needs& n, int threads)
       solids.push_back(i);
       bounds.push_back(bounds_of(scene, scene.objects[i]));
     }
+}
+
+bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
+  return scene.materials[primitive_material(scene, primitive)].casts_shadow;
 }
 
 Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
@@ -100,32 +102,34 @@ Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCoun
   return best;
 }
 
-Hit blocking_hit(const Prepared& prepared, std::uint32_t primitive, const Ray& ray, const glm::dvec3* light,
-                 const Hit& start, SignCounts& counts) {
-  return blocking_hit_by<intersect>(prepared.scene, primitive, ray, light, start, counts);
-}
-
 Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
             const Hit& start, Precision precision, Isa isa) {
   if (precision == Precision::in_float) return blocker_in_float(prepared, ray, light, start, counts, isa);
   if (!is_finite(ray)) return {};
   for (const std::uint32_t primitive : prepared.planes)
-    if (const Hit hit = blocking_hit(prepared, primitive, ray, light, start, counts); hit.found()) return hit;
+    if (const Hit hit = blocking_hit<intersect>(prepared.scene, primitive, ray, light, start, counts);
+        hit.found())
+      return hit;
   return kernels_for(isa).blocker(prepared, ray, light, start, counts);
 }
 
 glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,
                          SignCounts& counts, Isa isa) {
   std::vector<std::uint32_t> near;  // empty, but at edges
-  const auto add = [&](std::uint32_t primitive) {
+  auto add = [&](std::uint32_t primitive) {
     if (stands_near(prepared.scene, primitive, ray, hit, place, counts)) near.push_back(primitive);
   };
   for (const std::uint32_t primitive : prepared.planes) add(primitive);
-  const auto add_of = [&](const Bvh& bvh) {
-    visit_near(bvh, place.point, nearness(ray, hit, place, bvh.reach), add, isa);
+  const auto question = [&](const Bvh& bvh) {
+    return NearQuestion{
+        place.point, nearness(ray, hit, place, bvh.reach), hit.primitive, &add,
+        [](void* to, std::uint32_t primitive) { (*static_cast<decltype(add)*>(to))(primitive); }};
   };
-  add_of(prepared.triangles.bvh);
-  add_of(prepared.spheres.bvh);
+  const Kernels& kernels = kernels_for(isa);
+  if (!prepared.triangles.bvh.nodes.empty())
+    kernels.near_triangles(prepared.triangles, question(prepared.triangles.bvh));
+  if (!prepared.spheres.bvh.nodes.empty())
+    kernels.near_spheres(prepared.spheres, question(prepared.spheres.bvh));
   std::sort(near.begin(), near.end());
   return leaving_point(prepared.scene, ray, hit, place, near, counts);
 }
@@ -148,11 +152,6 @@ std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hi
 std::uint64_t visit_leaves(Isa isa, const Bvh& bvh, const Ray& ray, double limit,
                            const LeafVisitor& visitor) {
   return kernels_for(isa).visit_leaves(bvh, ray, limit, visitor);
-}
-
-void visit_leaves_near(Isa isa, const Bvh& bvh, const glm::dvec3& point, double distance,
-                       const LeafVisitor& visitor) {
-  kernels_for(isa).visit_leaves_near(bvh, point, distance, visitor);
 }
 
 }  // namespace sidelight::raytrace
