@@ -105,9 +105,10 @@ void ask_lanes(RayPacket& p, std::size_t first, std::uint32_t bits, std::uint32_
   }
 }
 
-// Keeps the primitive where it is surely met and surely nearer than what is kept; asks where that is doubtful.
+// Keeps the primitive where it is surely met and surely nearer than what is kept; asks where that is doubtful. Whether
+// anything may have changed.
 template <class F>
-void keep_nearer(RayPacket& p, std::size_t first, std::uint32_t primitive, const Mask<F>& met,
+bool keep_nearer(RayPacket& p, std::size_t first, std::uint32_t primitive, const Mask<F>& met,
                  const Mask<F>& may, const F& w, const F& w_error, bool sure, SignCounts& counts) {
   using I = Ints<F>;
   const F held = load<F>(&p.w[first]);
@@ -130,6 +131,7 @@ void keep_nearer(RayPacket& p, std::size_t first, std::uint32_t primitive, const
     store(to_bits<F>(select<F>(taken, id, from_bits<F>(load<I>(&p.primitive[first])))), &p.primitive[first]);
   }
   if (asked != 0) ask_lanes<F>(p, first, asked, primitive, counts);
+  return asked != 0 || any<F>(taken);
 }
 
 template <class F>
@@ -176,13 +178,16 @@ std::uint32_t groups_met(const RayPacket& p, const LeafSetup& s, std::size_t i) 
   return bits & ((1u << p.groups) - 1);
 }
 
+// Returns the groups in which something may have changed.
 template <class F>
 std::uint32_t test_triangle(RayPacket& p, const LeafSetup& s, std::size_t i, std::uint32_t primitive,
                             SignCounts& counts) {
   const std::uint32_t groups = groups_met<F>(p, s, i);
   const bool sure = s.sure[i] != 0;
+  std::uint32_t changed = 0;
   for (std::uint32_t bits = groups; bits != 0; bits &= bits - 1) {
     const std::size_t group = static_cast<std::size_t>(std::countr_zero(bits)) * RayPacket::kGroup;
+    bool any_changed = false;
     for (std::size_t first = group; first < group + RayPacket::kGroup; first += kLanes<F>) {
       const F u = load<F>(&p.u[first]), v = load<F>(&p.v[first]);
       const auto at = [&](float x, float y, float c) { return (F(x) * u + F(y) * v) + F(c); };
@@ -191,14 +196,15 @@ std::uint32_t test_triangle(RayPacket& p, const LeafSetup& s, std::size_t i, std
                       at(s.x[2][i], s.y[2][i], s.c[2][i]));
       const Mask<F> may = e >= F(-s.doubt[i]);
       if (!any<F>(may)) continue;
-      keep_nearer<F>(p, first, primitive, e > F(s.doubt[i]), may, at(s.wx[i], s.wy[i], s.wc[i]),
-                     F(s.w_error[i]), sure, counts);
+      any_changed |= keep_nearer<F>(p, first, primitive, e > F(s.doubt[i]), may,
+                                    at(s.wx[i], s.wy[i], s.wc[i]), F(s.w_error[i]), sure, counts);
     }
+    if (any_changed) changed |= bits & (~bits + 1);
   }
   const auto tested = RayPacket::kGroup * static_cast<std::uint64_t>(std::popcount(groups));
   counts.tests += tested;
   counts.filtered += 3 * tested;
-  return groups;
+  return changed;
 }
 
 // ---- Leaves ----
@@ -230,54 +236,94 @@ void test_leaf(const Prepared& prepared, const TriangleLeaves& leaves, std::uint
 // Rounding, with g = |f| + r as sums of components: D is off by less than 2^-46 d² g², and by what lies within the near
 // error n of the surface, d² (2 r n + n²) with n <= 2 near_error reach. Depths are told only well inside the outline and
 // for an origin well off the surface.
+struct SphereSetup {
+  double b_u, b_v, b_w, q;  // b = b_u u + b_v v + b_w
+  double doubt, clear;      // of D / d²: below -doubt it is surely missed, above `clear` surely met
+  double per_q = 1, root_sign = 1;
+  bool sure = false;  // whether 1/t is known where it is surely met
+};
+
+template <class D>
+SphereSetup set_up_sphere(const RayPacket& p, const double* row, std::uint32_t count) {
+  SphereSetup s;
+  const double radius = row[3 * count];
+  const Vec3<double> f{p.origin.x - row[0], p.origin.y - row[count], p.origin.z - row[2 * count]};
+  const auto along = [&](const glm::dvec3& d) { return -((f.x * d.x + f.y * d.y) + f.z * d.z); };
+  s.b_u = along(p.U);
+  s.b_v = along(p.V);
+  s.b_w = along(p.W);
+  s.q = dot(f, f) - radius * radius;
+  const double g = l1(f) + radius + p.distance, near = 2 * p.near_error * p.reach, size_q = lane_abs(s.q);
+  s.doubt = 0x1p-46 * (g * g) + near * (2 * radius + near);
+  s.clear = lane_max(0x1p-28 * (g * g), 0x1p-20 * (radius * radius));
+  s.sure = size_q > 0x1p-18 * (g * g) && size_q > 0x1p24 * (near * g);
+  s.per_q = 1 / (s.sure ? s.q : 1.0);
+  s.root_sign = s.q < 0 ? -1 : 1;
+  return s;
+}
+
+// Groups in which some ray may meet the sphere before what it keeps. Seen from outside: from the greatest b of a group.
+template <class F>
+std::uint32_t groups_met(const RayPacket& p, const SphereSetup& s) {
+  const std::uint32_t all = (1u << p.groups) - 1;
+  const double q = s.q - s.doubt;
+  if (!s.sure || !(q > 0)) return all;
+  const auto size = [](double x) { return lane_abs(static_cast<float>(x)); };
+  const float error = 0x1p-20f * ((size(s.b_u) * p.extent_u + size(s.b_v) * p.extent_v) + size(s.b_w));
+  const float less_q = static_cast<float>(q) * (1 - 0x1p-20f);
+  std::uint32_t bits = 0;
+  for (std::size_t g = 0; g < static_cast<std::size_t>(p.groups); g += kLanes<F>) {
+    const F x(static_cast<float>(s.b_u)), y(static_cast<float>(s.b_v));
+    const F middle =
+        (x * load<F>(&p.group_u[g]) + y * load<F>(&p.group_v[g])) + F(static_cast<float>(s.b_w) + error);
+    const F b = middle + (lane_abs<F>(x) * load<F>(&p.half_u[g]) + lane_abs<F>(y) * load<F>(&p.half_v[g]));
+    const F square = b * b * F(1 + 0x1p-20f), discriminant = square - load<F>(&p.least_square[g]) * F(less_q);
+    const F w = (b + square_root(lane_max<F>(discriminant, F(0)))) * F((1 + 0x1p-12f) / less_q);
+    bits |= mask_bits<F>(b >= F(0) && discriminant >= F(0) && w >= load<F>(&p.least_w[g])) << g;
+  }
+  return bits & all;
+}
+
+template <class F, class D>
+bool test_spheres(RayPacket& p, const SphereSetup& s, std::size_t ray, std::uint32_t primitive,
+                  SignCounts& counts) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  alignas(64) std::array<float, kLanes<F>> ws, states;  // state: 1 surely met, -1 surely missed
+  for (std::size_t lane = 0; lane < kLanes<F>; lane += kLanes<D>) {
+    const D u = to_double<D>(load<FloatsOf<D>>(&p.u[ray + lane])),
+            v = to_double<D>(load<FloatsOf<D>>(&p.v[ray + lane]));
+    const D b = (u * D(s.b_u) + v * D(s.b_v)) + D(s.b_w), square = load<D>(&p.square[ray + lane]);
+    const D discriminant = b * b - square * D(s.q);
+    const D root = square_root(lane_max<D>(discriminant, D(0)));
+    const D missed = select<D>(discriminant < -(square * D(s.doubt)), D(-1), D(0));
+    store(to_float<D>((b + D(s.root_sign) * root) * D(s.per_q)), &ws[lane]);
+    store(to_float<D>(select<D>(discriminant > square * D(s.clear), D(1), missed)), &states[lane]);
+  }
+  const F state = load<F>(states.data());
+  const Mask<F> may = state >= F(0), met = state > F(0);
+  if (!any<F>(may)) return false;
+  // An unclear one has no depth, so it is asked wherever it is.
+  return keep_nearer<F>(p, ray, primitive, met, may, select<F>(met, load<F>(ws.data()), F(0)),
+                        select<F>(met, F(0), F(kInfinity)), s.sure, counts);
+}
+
 template <class F, class D>
 void test_leaf(const Prepared& prepared, const SphereLeaves& leaves, std::uint32_t first, std::uint32_t count,
                RayPacket& p, SignCounts& counts) {
-  const double* row = leaves.leaf(first);
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t primitive = leaves.bvh.items[first + i];
     if (casts_none<F>(prepared, p, primitive)) continue;
-    const double radius = row[3 * count + i];
-    const Vec3<double> f{p.origin.x - row[i], p.origin.y - row[count + i], p.origin.z - row[2 * count + i]};
-    const double q = dot(f, f) - radius * radius, g = l1(f) + radius + p.distance,
-                 near = 2 * p.near_error * p.reach;
-    const auto along = [&](const glm::dvec3& d) { return -((f.x * d.x + f.y * d.y) + f.z * d.z); };
-    const double b_u = along(p.U), b_v = along(p.V), b_w = along(p.W);
-    const double doubt = 0x1p-46 * (g * g) + near * (2 * radius + near);
-    const double clear = lane_max(0x1p-28 * (g * g), 0x1p-20 * (radius * radius));
-    const double size_q = lane_abs(q);
-    const bool sure = size_q > 0x1p-18 * (g * g) && size_q > 0x1p24 * (near * g);
-    const double per_q = 1 / (sure ? q : 1.0), sign = q < 0 ? -1.0 : 1.0;
+    const SphereSetup setup = set_up_sphere<D>(p, leaves.leaf(first) + i, count);
+    const std::uint32_t groups = groups_met<F>(p, setup);
     std::uint32_t changed = 0;
-    for (std::size_t group = 0; group < static_cast<std::size_t>(p.groups); ++group) {
-      bool met = false;
-      for (std::size_t ray = group * RayPacket::kGroup; ray < (group + 1) * RayPacket::kGroup;
-           ray += kLanes<F>) {
-        alignas(64) std::array<float, kLanes<F>> ws, inside;
-        for (std::size_t lane = 0; lane < kLanes<F>; lane += kLanes<D>) {
-          const D u = to_double<D>(load<FloatsOf<D>>(&p.u[ray + lane])),
-                  v = to_double<D>(load<FloatsOf<D>>(&p.v[ray + lane]));
-          const D b = (u * D(b_u) + v * D(b_v)) + D(b_w), dd = load<D>(&p.square[ray + lane]);
-          const D discriminant = b * b - dd * D(q);
-          const D root = square_root(lane_max<D>(discriminant, D(0)));
-          const D state = select<D>(discriminant > dd * D(clear), D(1),
-                                    select<D>(discriminant < -(dd * D(doubt)), D(-1), D(0)));
-          store(to_float<D>((b + D(sign) * root) * D(per_q)), &ws[lane]);
-          store(to_float<D>(state), &inside[lane]);
-        }
-        const F w = load<F>(ws.data()), state = load<F>(inside.data());
-        const Mask<F> may = state >= F(0);
-        if (!any<F>(may)) continue;
-        met = true;
-        const Mask<F> clearly = state > F(0);
-        // An unclear one has no depth, so it is asked wherever it is.
-        const F w_known = select<F>(clearly, w, F(0)),
-                w_error = select<F>(clearly, F(0), F(std::numeric_limits<float>::infinity()));
-        keep_nearer<F>(p, ray, primitive, clearly, may, w_known, w_error, sure, counts);
-      }
-      if (met) changed |= 1u << group;
+    for (std::uint32_t bits = groups; bits != 0; bits &= bits - 1) {
+      const std::size_t group = static_cast<std::size_t>(std::countr_zero(bits)) * RayPacket::kGroup;
+      bool any_changed = false;
+      for (std::size_t ray = group; ray < group + RayPacket::kGroup; ray += kLanes<F>)
+        any_changed |= test_spheres<F, D>(p, setup, ray, primitive, counts);
+      if (any_changed) changed |= bits & (~bits + 1);
     }
-    counts.tests += static_cast<std::uint64_t>(p.groups) * RayPacket::kGroup;
+    counts.tests += RayPacket::kGroup * static_cast<std::uint64_t>(std::popcount(groups));
     if (changed != 0) update_least<F>(p, changed);
   }
 }
@@ -371,6 +417,8 @@ void walk_packet(const Prepared& prepared, const Tree& leaves, RayPacket& p, Sig
     // Surely behind all that is kept; all rays of an infinite w are done.
     if (p.least == std::numeric_limits<float>::infinity()) return;
     if (top.depth * p.least > 1 + 0x1p-12f) continue;
+    p.budget -= top.count > 0 ? 8 : 1;
+    if (p.budget < 0) return;
     if (top.count > 0) {
       test_leaf<F, D>(prepared, leaves, top.first, top.count, p, counts);
       continue;
@@ -430,13 +478,21 @@ void find_squares(RayPacket& p) {
         (W + to_double<D>(load<FloatsOf<D>>(&p.u[i])) * U) + to_double<D>(load<FloatsOf<D>>(&p.v[i])) * V;
     store(dot(d, d), &p.square[i]);
   }
+  p.least_square.fill(0);
+  for (std::size_t g = 0; g < static_cast<std::size_t>(p.groups); ++g) {
+    const double* square = &p.square[g * RayPacket::kGroup];
+    D low = load<D>(square);
+    for (int i = kLanes<D>; i < RayPacket::kGroup; i += kLanes<D>)
+      low = lane_min<D>(low, load<D>(square + i));
+    p.least_square[g] = static_cast<float>(least(low)) * (1 - 0x1p-20f);
+  }
 }
 
 template <class F, class B, class D>
 void meet_all(const Prepared& prepared, RayPacket& p, SignCounts& counts) {
   for (const std::uint32_t plane : prepared.planes) test_plane<F>(prepared, p, plane, counts);
   walk_packet<F, B, D>(prepared, prepared.triangles, p, counts);
-  if (prepared.spheres.bvh.nodes.empty()) return;
+  if (prepared.spheres.bvh.nodes.empty() || p.budget < 0) return;
   find_squares<D>(p);
   walk_packet<F, B, D>(prepared, prepared.spheres, p, counts);
 }

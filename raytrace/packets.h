@@ -38,6 +38,8 @@ struct RayPacket {
   alignas(64) PerRay<std::int32_t> own;  // of shadow rays: the flat surface that asks, or -1
   bool any_hit = false;                  // shadow rays: the first one will do
   bool all_cast = true;                  // whether every material casts shadows
+  // Work left, at the cost of a node as 1 and a leaf as 8: where it falls below 0 the packet is left as it is by then.
+  int budget = std::numeric_limits<int>::max();
   // Whether anything at all was doubtful. If not, nothing but what is kept comes near to where the ray ends.
   PerRay<bool> asked{};
 
@@ -47,7 +49,9 @@ struct RayPacket {
   alignas(64) PerGroup<float> group_u, group_v, half_u, half_v;
   alignas(64) PerGroup<float> least_w;  // of its rays
   float least = 0;
-  alignas(64) PerRay<double> square;  // d . d, where there are spheres
+  // Where there are spheres: d . d, and the least of each group.
+  alignas(64) PerRay<double> square;
+  alignas(64) PerGroup<float> least_square;
 
   // Decides about a ray and a primitive, and changes w and primitive accordingly.
   void (*ask)(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) = nullptr;
@@ -61,7 +65,7 @@ inline constexpr float kSurely = 1 + 0x1p-14f;
 // Fills what is derived. Entries beyond `size`, up to whole groups, become rays that ask for nothing.
 void finish(RayPacket& packet);
 
-// Meets everything in the scene that casts shadows (any_hit), or simply everything.
+// Meets everything in the scene that casts shadows (any_hit), or simply everything, as far as the budget goes.
 void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, SignCounts& counts);
 // One for each instruction set.
 void trace_packet_scalar(const Prepared& prepared, RayPacket& packet, SignCounts& counts);

@@ -10,6 +10,10 @@
 namespace sidelight::raytrace {
 namespace {
 
+// What a packet may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget;
+// a single ray takes about four.
+constexpr int kPacketWork = 32, kRayWork = 3;
+
 // Every second bit of eight.
 std::uint32_t spread(std::uint32_t x) {
   x = (x | x << 4) & 0x0f0f;
@@ -69,9 +73,10 @@ void ShadowPackets::sort_face() {
   Extent extent;
   for (const Place& place : sorted_) extent.grow(place.u, place.v);
   const double width = std::max({extent.high_u - extent.low_u, extent.high_v - extent.low_v, 0x1p-100});
+  const double scale = 255 / width;
   for (Place& place : sorted_)
-    place.key = spread(static_cast<std::uint32_t>(255 * ((place.u - extent.low_u) / width))) |
-                spread(static_cast<std::uint32_t>(255 * ((place.v - extent.low_v) / width))) << 1;
+    place.key = spread(static_cast<std::uint32_t>(scale * (place.u - extent.low_u))) |
+                spread(static_cast<std::uint32_t>(scale * (place.v - extent.low_v))) << 1;
   other_.resize(sorted_.size());
   for (const int shift : {0, 8}) {
     std::array<std::uint32_t, 257> start{};
@@ -140,15 +145,27 @@ void ShadowPackets::trace_places(int face, std::size_t first, std::size_t last,
   packet_.place_error =
       0x1p-50 + 0x1p-23 * std::max(extent.high_u - extent.low_u, extent.high_v - extent.low_v);
   finish(packet_);
+  packet_.budget = kPacketWork + kRayWork * packet_.size;
   trace_packet(isa_, prepared_, packet_, counts);
-  for (std::size_t i = 0; i < last - first; ++i) dark[query_[i]] = packet_.primitive[i] >= 0;
+  const bool all = packet_.budget >= 0;
+  for (std::size_t i = 0; i < last - first; ++i)
+    dark[query_[i]] = packet_.primitive[i] >= 0 || (!all && is_dark(query_[i], counts));
+}
+
+// Alone.
+bool ShadowPackets::is_dark(std::uint32_t query, SignCounts& counts) const {
+  return blocker(prepared_, ray_to_light(queries_[query].from, *light_), &light_->position, counts, kRayStart,
+                 Precision::exact, isa_)
+      .found();
 }
 
 void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) {
   const ShadowPackets& self = *static_cast<const ShadowPackets*>(packet.context);
+  // As blocker() does; what casts no shadow is not asked about.
+  const Scene& scene = self.prepared_.scene;
   const Ray exact = ray_to_light(self.queries_[self.query_[ray]].from, *self.light_);
-  if (!blocking_hit(self.prepared_, primitive, exact, &self.light_->position, kRayStart, counts).found())
-    return;
+  const Hit hit = intersect(scene, primitive, exact, kRayStart, counts);
+  if (!hit.found() || !before_light(scene, hit, exact, self.light_->position, counts)) return;
   packet.primitive[ray] = static_cast<std::int32_t>(primitive);
   packet.w[ray] = std::numeric_limits<float>::infinity();
 }

@@ -39,6 +39,7 @@ class ShadowPackets {
   void trace_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts);
   void trace_places(int face, std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark,
                     SignCounts& counts);
+  bool is_dark(std::uint32_t query, SignCounts& counts) const;
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
 
   const Prepared& prepared_;
