@@ -1,83 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
-#include "common/math/lanes.h"
 #include "common/parallel.h"
 #include "raytrace/bvh.h"
+#include "raytrace/bvh_reference.h"
 
 namespace sidelight::raytrace {
 namespace {
-
-using Quad = stdx::simd<float, stdx::simd_abi::deduce_t<float, 4>>;  // x, y, z and one to spare
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-struct Bounds {
-  Quad low{kInfinity}, high{-kInfinity};
-
-  [[gnu::always_inline]] void grow(const Bounds& b) {
-    low = stdx::min(low, b.low);
-    high = stdx::max(high, b.high);
-  }
-  // Half the surface, with lengths times `unit`; 0 for an empty box.
-  float half_area(float unit) const {
-    const Quad d = stdx::max(high - low, Quad(0)) * Quad(unit);
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
-  }
-};
-
-// An item on its way to its leaf, with its box: moved, not pointed to, since each level of the tree reads all of them.
-struct Reference {
-  std::array<float, 4> low;  // the fourth number is 0
-  std::array<float, 3> high;
-  std::uint32_t item;
-
-  // The item's bits would be a denormal number, and slow.
-  [[gnu::always_inline]] Bounds box() const {
-    using Bits = decltype(to_bits(Quad{}));
-    constexpr std::array<std::int32_t, 4> kFirstThree{-1, -1, -1, 0};
-    return {load<Quad>(low.data()),
-            from_bits<Quad>(to_bits(load<Quad>(high.data())) & load<Bits>(kFirstThree.data()))};
-  }
-};
-static_assert(sizeof(Reference) == 32);
-
-// Twice the centre of a box, as both ends of an interval.
-[[gnu::always_inline]] inline Bounds center_of(const Bounds& box) {
-  return {box.low + box.high, box.low + box.high};
-}
-
-struct Range {
-  std::uint32_t first = 0, count = 0;
-  Bounds boxes, centers;
-  int depth = 0;  // nodes above it
-};
-
-float round_down(double x) {
-  const auto f = static_cast<float>(x);
-  return f <= x ? f : std::nextafter(f, -kInfinity);
-}
-float round_up(double x) { return -round_down(-x); }
-
-// Bins of equal width over the centres of a range, along each axis.
-constexpr std::size_t kMostBins = 16;
-struct Binning {
-  Quad from, per_width;
-  std::size_t bins;
-
-  explicit Binning(const Range& range)
-      : from(range.centers.low), bins(std::min<std::size_t>(kMostBins, 4 + range.count / 8)) {
-    const Quad width = range.centers.high - range.centers.low;
-    per_width = Quad(0);
-    // A little less than the bins, so that the last centre falls into the last one.
-    stdx::where(width > Quad(0), per_width) = Quad(static_cast<float>(bins) * (1 - 0x1p-12f)) / width;
-  }
-  [[gnu::always_inline]] auto of(const Bounds& box) const {
-    const Quad at = ((box.low + box.high) - from) * per_width;
-    return stdx::static_simd_cast<stdx::rebind_simd_t<int, Quad>>(at);
-  }
-};
 
 struct Split {
   int axis = -1;
@@ -87,10 +17,9 @@ struct Split {
 
 class Builder {
  public:
-  Builder(std::span<Reference> references, float unit)
-      : references_(references),
-        spare_(std::make_unique_for_overwrite<Reference[]>(references.size())),
-        unit_(unit) {}
+  // Reorders the references; `spare` has room for as many. Lengths times `unit` have squares.
+  Builder(Reference* references, Reference* spare, float unit)
+      : references_(references), spare_(spare), unit_(unit) {}
 
   // Nodes of the subtree over `range`, its root first, into `nodes`; subtrees of at most `task_size` items that begin
   // below it are left out and listed in `tasks`, where one is given.
@@ -155,20 +84,26 @@ class Builder {
         }
       }
       if (largest < 0) break;
-      Range& left = children.range[static_cast<std::size_t>(largest)];
-      Range& right = children.range[children.size++];
-      std::tie(left, right) = halves(left);
+      const std::array<Range, 2> parts = halves(children.range[static_cast<std::size_t>(largest)]);
+      children.range[static_cast<std::size_t>(largest)] = parts[0];
+      children.range[children.size++] = parts[1];
     }
     for (std::uint32_t i = 0; i < children.size; ++i) children.range[i].depth = range.depth + 1;
     return children;
   }
+
+  // Large ranges are judged by a sample of about this many items: their bins hold enough of them.
+  static constexpr std::uint32_t kSample = 2048;
 
   Split best_split(const Range& range, const Binning& binning) const {
     std::array<std::array<std::uint32_t, kMostBins>, 3> counts{};
     Bins boxes;
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (std::size_t bin = 0; bin < binning.bins; ++bin) boxes.of[axis][bin] = Bounds{};
-    for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
+    const std::uint32_t step = std::max(1u, range.count / kSample);
+    std::uint32_t sampled = 0;
+    for (std::uint32_t k = range.first; k < range.first + range.count; k += step) {
+      ++sampled;
       const Bounds box = references_[k].box();
       const auto bin = binning.of(box);
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -194,7 +129,7 @@ class Builder {
       for (std::size_t bin = 1; bin < binning.bins; ++bin) {
         box.grow(boxes.of[axis][bin - 1]);
         items += counts[axis][bin - 1];
-        if (items == 0 || items == range.count) continue;
+        if (items == 0 || items == sampled) continue;
         const float cost = box.half_area(unit_) * static_cast<float>(items) + right_cost[bin];
         if (cost < best.cost) best = {static_cast<int>(axis), static_cast<int>(bin), cost};
       }
@@ -203,7 +138,7 @@ class Builder {
   }
 
   // Reorders the range into two that are not empty.
-  std::pair<Range, Range> halves(const Range& range) {
+  std::array<Range, 2> halves(const Range& range) {
     // Deep in a pathological scene, or where all centres coincide: by count, so that depth stays bounded.
     constexpr int kDepthOfHalving = Bvh::kMaxDepth - 34;
     const Binning binning(range);
@@ -217,7 +152,7 @@ class Builder {
   // number of those on the left.
   std::uint32_t partition(const Range& range, const Binning& binning, const Split& split) {
     const auto axis = static_cast<std::size_t>(split.axis);
-    Reference *left = references_.data() + range.first, *right = spare_.get() + range.first;
+    Reference *left = references_ + range.first, *right = spare_ + range.first;
     for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
       const Reference reference = references_[k];
       const bool goes_left = binning.of(reference.box())[axis] < split.bin;
@@ -225,12 +160,12 @@ class Builder {
       left += goes_left;
       right += !goes_left;
     }
-    std::copy(spare_.get() + range.first, right, left);
-    return static_cast<std::uint32_t>(left - references_.data()) - range.first;
+    std::copy(spare_ + range.first, right, left);
+    return static_cast<std::uint32_t>(left - references_) - range.first;
   }
 
   std::uint32_t halve(const Range& range) {
-    const auto begin = references_.begin() + range.first;
+    Reference* begin = references_ + range.first;
     const Quad width = range.boxes.high - range.boxes.low;
     const std::size_t axis =
         width[0] >= width[1] ? (width[0] >= width[2] ? 0 : 2) : (width[1] >= width[2] ? 1 : 2);
@@ -252,29 +187,27 @@ class Builder {
     return range;
   }
 
-  std::span<Reference> references_;
-  std::unique_ptr<Reference[]> spare_;  // for partition()
+  Reference *references_, *spare_;
   float unit_;
 };
 
-}  // namespace
+// body(block, item) for all items, block by block in parallel.
+constexpr int kBlock = 4096;
+template <class Body>
+void for_each_item(std::size_t items, int threads, const Body& body) {
+  const auto size = static_cast<int>(items);
+  parallel_for((size + kBlock - 1) / kBlock, threads, [&](int block, int) {
+    for (int i = block * kBlock; i < std::min(size, (block + 1) * kBlock); ++i)
+      body(static_cast<std::size_t>(block), static_cast<std::size_t>(i));
+  });
+}
 
-Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uint32_t)>& box_of,
-              int threads) {
-  Bvh bvh;
-  if (items.empty()) return bvh;
-
-  // Where the boxes are. A tree far from the world's origin is kept relative to its middle.
-  constexpr int kBlock = 4096;
-  const auto size = static_cast<int>(items.size()), blocks = (size + kBlock - 1) / kBlock;
-  std::vector<Box> of_block(static_cast<std::size_t>(blocks));
-  const auto for_each_item = [&](const auto& body) {
-    parallel_for(blocks, threads, [&](int block, int) {
-      for (int i = block * kBlock; i < std::min(size, (block + 1) * kBlock); ++i)
-        body(static_cast<std::size_t>(block), static_cast<std::size_t>(i));
-    });
-  };
-  for_each_item([&](std::size_t block, std::size_t i) { of_block[block].grow(box_of(items[i])); });
+// Where the boxes are. A tree far from the world's origin is kept relative to its middle.
+void place(Bvh& bvh, const std::vector<std::uint32_t>& items, const std::function<Box(std::uint32_t)>& box_of,
+           int threads) {
+  std::vector<Box> of_block(items.size() / kBlock + 1);
+  for_each_item(items.size(), threads,
+                [&](std::size_t block, std::size_t i) { of_block[block].grow(box_of(items[i])); });
   Box world;
   for (const Box& box : of_block) world.grow(box);
   for (int axis = 0; axis < 3; ++axis) {
@@ -282,47 +215,64 @@ Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uin
     if (world.low[axis] > 0 || world.high[axis] < 0)
       bvh.center[axis] = 0.5 * world.low[axis] + 0.5 * world.high[axis];
   }
+}
 
-  const auto storage = std::make_unique_for_overwrite<Reference[]>(items.size());
-  const std::span<Reference> references(storage.get(), items.size());
-  std::vector<Range> range_of_block(static_cast<std::size_t>(blocks));
-  for_each_item([&](std::size_t block, std::size_t i) {
+// All items as one range, their boxes relative to `center`.
+Range refer(const std::vector<std::uint32_t>& items, const std::function<Box(std::uint32_t)>& box_of,
+            const glm::dvec3& center, int threads, Reference* references) {
+  std::vector<Range> of_block(items.size() / kBlock + 1);
+  for_each_item(items.size(), threads, [&](std::size_t block, std::size_t i) {
     const Box box = box_of(items[i]);
-    const glm::dvec3 low = box.low - bvh.center, high = box.high - bvh.center;
+    const glm::dvec3 low = box.low - center, high = box.high - center;
     references[i] = {{round_down(low.x), round_down(low.y), round_down(low.z), 0},
                      {round_up(high.x), round_up(high.y), round_up(high.z)},
                      items[i]};
-    range_of_block[block].boxes.grow(references[i].box());
-    range_of_block[block].centers.grow(center_of(references[i].box()));
+    of_block[block].boxes.grow(references[i].box());
+    of_block[block].centers.grow(center_of(references[i].box()));
   });
   Range all;
-  all.count = static_cast<std::uint32_t>(size);
-  for (const Range& range : range_of_block) {
+  all.count = static_cast<std::uint32_t>(items.size());
+  for (const Range& range : of_block) {
     all.boxes.grow(range.boxes);
     all.centers.grow(range.centers);
   }
+  return all;
+}
 
-  // The upper levels here, then the subtrees below them in parallel; which they are depends on the items alone.
+// The upper levels here, then the subtrees below them in parallel; which they are depends on the items alone.
+void build_nodes(Builder& builder, const Range& all, int threads, std::vector<BvhNode>& nodes) {
   constexpr std::uint32_t kTaskSize = 8192;
-  const Quad extent = all.boxes.high - all.boxes.low;
-  const float longest = std::max({extent[0], extent[1], extent[2]});
-  Builder builder(references, longest > 0 ? 1 / longest : 1);
   std::vector<Builder::Task> tasks;
-  builder.build(all, bvh.nodes, &tasks, kTaskSize);
+  builder.build(all, nodes, &tasks, kTaskSize);
   std::vector<std::vector<BvhNode>> subtrees(tasks.size());
   parallel_for(static_cast<int>(tasks.size()), threads, [&](int i, int) {
     const auto task = static_cast<std::size_t>(i);
     builder.build(tasks[task].range, subtrees[task], nullptr, 0);
   });
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    const auto base = static_cast<std::uint32_t>(bvh.nodes.size());
-    bvh.nodes[tasks[i].node].first[tasks[i].slot] = base;
+    const auto base = static_cast<std::uint32_t>(nodes.size());
+    nodes[tasks[i].node].first[tasks[i].slot] = base;
     for (BvhNode& node : subtrees[i])
       for (std::size_t slot = 0; slot < BvhNode::kWidth; ++slot)
         if (node.count[slot] == 0) node.first[slot] += base;
-    bvh.nodes.insert(bvh.nodes.end(), subtrees[i].begin(), subtrees[i].end());
+    nodes.insert(nodes.end(), subtrees[i].begin(), subtrees[i].end());
   }
-  for (std::size_t i = 0; i < items.size(); ++i) items[i] = references[i].item;
+}
+
+}  // namespace
+
+Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uint32_t)>& box_of,
+              int threads) {
+  Bvh bvh;
+  if (items.empty()) return bvh;
+  place(bvh, items, box_of, threads);
+  const auto storage = std::make_unique_for_overwrite<Reference[]>(2 * items.size());
+  const Range all = refer(items, box_of, bvh.center, threads, storage.get());
+  const Quad extent = all.boxes.high - all.boxes.low;
+  const float longest = std::max({extent[0], extent[1], extent[2]});
+  Builder builder(storage.get(), storage.get() + items.size(), longest > 0 ? 1 / longest : 1);
+  build_nodes(builder, all, threads, bvh.nodes);
+  for (std::size_t i = 0; i < items.size(); ++i) items[i] = storage[i].item;
   bvh.items = std::move(items);
   return bvh;
 }

@@ -106,28 +106,36 @@ template <class F, class Leaf>
   MetChildren met;
   Entry top{0, 0, 0};
   while (true) {
-    if (top.near <= box_limit) {
-      if (top.count > 0) {
-        limit = leaf(top.first, top.count, limit);
-        if (limit < 0) return entered;
-        box_limit = ray.limit(limit);
-      } else {
-        ++entered;
-        const BvhNode& node = bvh.nodes[top.first];
-        meet_children<F>(node, ray, box_limit, met);
-        // Onto the stack by insertion, the nearest last; of equal ones the first last.
+    if (top.count > 0) {
+      limit = leaf(top.first, top.count, limit);
+      if (limit < 0) return entered;
+      box_limit = ray.limit(limit);
+    } else {
+      ++entered;
+      const BvhNode& node = bvh.nodes[top.first];
+      meet_children<F>(node, ray, box_limit, met);
+      const auto child = [&](std::uint32_t bits) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+        return Entry{met.entry[i], node.first[i], node.count[i]};
+      };
+      if (met.bits != 0) {
+        // The nearest goes on, of equal ones the first; the others onto the stack by insertion, the nearest of them last.
         const std::size_t base = size;
-        for (std::uint32_t bits = met.bits; bits != 0; bits &= bits - 1) {
-          const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-          const Entry child{met.entry[i], node.first[i], node.count[i]};
+        top = child(met.bits);
+        for (std::uint32_t bits = met.bits & (met.bits - 1); bits != 0; bits &= bits - 1) {
+          Entry other = child(bits);
+          if (other.near < top.near) std::swap(other, top);
           std::size_t at = size++;
-          for (; at > base && stack[at - 1].near <= child.near; --at) stack[at] = stack[at - 1];
-          stack[at] = child;
+          for (; at > base && stack[at - 1].near <= other.near; --at) stack[at] = stack[at - 1];
+          stack[at] = other;
         }
+        continue;
       }
     }
-    if (size == 0) return entered;
-    top = stack[--size];
+    do {
+      if (size == 0) return entered;
+      top = stack[--size];
+    } while (top.near > box_limit);
   }
 }
 

@@ -25,8 +25,9 @@ inline constexpr double kDepthSlack = 1 + 0x1p-16;
 // product and u |x| for the difference. With m = |x| + |y| and W at least all 3 |a_z| + m, E_k = x_i y_j - x_j y_i is off
 // by u W (m_i + m_j) + 2 u² W² for that, and by 2 u m_i m_j of its own: error = 4 u W (m_0 + m_1 + m_2 + 4 u W) is more.
 //   t d_z = N / sum E_k, N = sum E_k a_kz
-// Where no two E_k are surely of opposite sign, |E_k| are at most |sum E_k| + 6 errors together, and u |sum E_k| is
-// below a quarter of an error: N is off by less than 4 errors times sum |a_kz|, its products and sums included.
+// N is off by 2 u W M sum |a_kz| for the errors of E_k, with M the sum of all m; and as |E_k| <= m_i m_j <= W M / 2, by
+// 1.5 u W M sum |a_kz| for its own products and sums, by u W M sum |a_kz| when divided by d_z: 1.5 errors times
+// sum |a_kz| is more.
 template <class D>
 class TriangleFilter {
  public:
@@ -80,7 +81,7 @@ class TriangleFilter {
 
     const D sum = (e0 + e1) + e2, depths = ((e0 * z[0] + e1 * z[1]) + e2 * z[2]) * D(inverse_z_);
     const D turned = select<D>(sum < D(0), -depths, depths);  // t |sum|
-    const D doubt = error * depth * D(4 * (inverse_z_ < 0 ? -inverse_z_ : inverse_z_));
+    const D doubt = error * depth * D(1.5 * (inverse_z_ < 0 ? -inverse_z_ : inverse_z_));
     const D total = lane_abs<D>(sum), margin = D(4) * error;
     const Mask<D> apart = low < -error && high > error;  // of different sign
     const Mask<D> behind = turned<-doubt, beyond = turned - doubt> D(limit * kDepthSlack) * (total + margin);
