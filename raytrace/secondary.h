@@ -34,8 +34,8 @@ inline glm::dvec3 refract_of(const Scene& scene, const Material& material) {
 }
 
 // The secondary rays that `path` gives rise to where it met `hit`, at `surface`; they start at `from`
-// (leaving_point). Of the surface, `entering`, `outward` and `together` are read only where it bounds a solid and
-// refracts. Depth and weight are still those of `path`.
+// (leaving_point). Of the surface object, material, normal, facing, entering and together are read. Depth and weight are
+// still those of `path`.
 Departures departures(const Prepared& prepared, const Path& path, const Hit& hit, const Surface& surface,
                       const glm::dvec3& from, SignCounts& counts);
 

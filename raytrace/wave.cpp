@@ -20,6 +20,16 @@ void put(SurfaceBatch::Vectors& to, std::size_t i, const glm::dvec3& v) {
   to[2][i] = v.z;
 }
 
+// Whether the ray comes from the outward side, Nv being `facing`: as locate() has it.
+bool is_entering(const Scene& scene, const Ray& ray, const Hit& hit, const glm::dvec3& facing) {
+  const PrimitiveRef ref = primitive_ref(scene, hit.primitive);
+  if (ref.kind == ObjectKind::sphere)
+    return glm::dot(facing, (ray.origin - scene.spheres[ref.index].center) + hit.t * ray.direction) > 0;
+  if (ref.kind == ObjectKind::plane) return glm::dot(facing, scene.planes[ref.index].normal) > 0;
+  const auto [v0, v1, v2] = corners(scene, scene.triangles[ref.index]);
+  return glm::dot(facing, glm::cross(v1 - v0, v2 - v0)) > 0;
+}
+
 }  // namespace
 
 Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_media,
@@ -197,6 +207,7 @@ void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces,
                                RenderStats& stats) const {
   batch.normal = surfaces.normal;
   batch.facing = surfaces.facing;
+  batch.clearance = surfaces.clearance;
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
     Place place;
     place.point = get(surfaces.point, i);
@@ -226,10 +237,11 @@ void Wave::add_lights(const Level& level, RenderStats& stats) {
 }
 
 ShadowQuery Wave::shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const {
-  ShadowQuery query{batch.from_of(i), level.hits[batch.ray[i]].primitive};
-  if (batch.kind != ObjectKind::sphere) return query;
-  const Sphere& sphere = scene_.spheres[primitive_ref(scene_, query.own).index];
-  if (glm::dot(get(batch.facing, i), query.from - sphere.center) <= 0) query.own = kNone;
+  const std::uint32_t ray = batch.ray[i];
+  ShadowQuery query{batch.from_of(i), level.hits[ray].primitive};
+  if (batch.kind == ObjectKind::sphere &&
+      !is_entering(scene_, ray_of(level, ray), level.hits[ray], get(batch.facing, i)))
+    query.own = kNone;
   return query;
 }
 
@@ -305,6 +317,20 @@ void Wave::sum_up(Level& level, bool eye) {
 
 // ---- Secondary rays ----
 
+// What departures() reads of a surface.
+Surface Wave::surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray) const {
+  const Hit& hit = level.hits[batch.ray[i]];
+  Surface surface;
+  surface.object = scene_.primitive_object[hit.primitive];
+  surface.material = batch.material[i];
+  surface.normal = get(batch.normal, i);
+  surface.facing = get(batch.facing, i);
+  surface.clearance = batch.clearance[i];
+  surface.together = together_depth(ray, hit, surface);
+  surface.entering = is_entering(scene_, ray, hit, surface.facing);
+  return surface;
+}
+
 void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) const {
   const auto follow = [&](Departure& leaving, std::uint32_t parent) {
     auto& [path, c] = leaving;
@@ -320,17 +346,11 @@ void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) const {
     const HitBatch& batch = batches_[b];
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
       const Material& material = scene_.materials[batch.material[i]];
-      const bool refracts = largest(refract_of(scene_, material)) != 0;
-      if (!refracts && largest(reflect_of(scene_, material)) == 0) continue;
+      if (largest(refract_of(scene_, material)) == 0 && largest(reflect_of(scene_, material)) == 0) continue;
       const std::uint32_t ray = batch.ray[i];
       const Hit& hit = level.hits[ray];
       const Path path = path_of(level, ray);
-      Surface surface;
-      if (refracts) surface = surface_at(scene_, path.ray, hit, stats.signs);
-      surface.object = scene_.primitive_object[hit.primitive];
-      surface.material = batch.material[i];
-      surface.normal = get(batch.normal, i);
-      surface.facing = get(batch.facing, i);
+      const Surface surface = surface_of(level, batch, i, path.ray);
       Departures leaving = departures(prepared_, path, hit, surface, batch.from_of(i), stats.signs);
       follow(leaving.mirrored, ray);
       follow(leaving.refracted, ray);

@@ -23,6 +23,7 @@ struct HitBatch {
   int size = 0;
   SurfaceBatch::Channel<std::uint32_t> ray, material;  // the ray's number in its level
   SurfaceBatch::Vectors from, normal, facing;          // leaving_point, N and Nv, where rays leave
+  SurfaceBatch::Channel<double> clearance;             // Place::clearance, likewise
   LitBatch lit;
   ShadingBatch::Rgb light{},
       missing{};  // sums of T_i, c1 left out: of lights that are seen, and that are not
@@ -76,6 +77,7 @@ class Wave {
   ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
   void add_light(std::size_t light);
   void sum_up(Level& level, bool eye);
+  Surface surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray) const;
   void send_secondary(Level& level, Level& next, RenderStats& stats) const;
   void bring_back(const Level& level, Level& parent) const;
   HitBatch& next_batch();
