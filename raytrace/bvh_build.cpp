@@ -1,145 +1,279 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <memory>
 
+#include "common/parallel.h"
 #include "raytrace/bvh.h"
+#include "raytrace/bvh_reference.h"
 
 namespace sidelight::raytrace {
 namespace {
 
-constexpr int kBins = 16;
-constexpr std::uint32_t kMaxLeaf = 8;
-constexpr double kNodeCost = 1, kItemCost = 2;   // of a box pair and of one exact triangle test, measured: about 1 : 2
-
-float round_down(double x) {
-  const auto f = static_cast<float>(x);
-  return f <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
-}
-float round_up(double x) { return -round_down(-x); }
-
 struct Split {
   int axis = -1;
-  int bin = 0;   // items of bins < bin go left
-  double cost = std::numeric_limits<double>::infinity();
+  int bin = 0;  // items of bins < bin go left
+  float cost = kInfinity;
 };
 
 class Builder {
  public:
-  Builder(std::span<const Box> boxes, std::span<const std::uint32_t> items, Bvh& bvh)
-      : boxes_(boxes), items_(items), bvh_(bvh), order_(boxes.size()) {
-    for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
-  }
+  // Reorders the references; `spare` has room for as many. Lengths times `unit` have squares.
+  Builder(Reference* references, Reference* spare, float unit)
+      : references_(references), spare_(spare), unit_(unit) {}
 
-  void build() {
-    bvh_.nodes.reserve(2 * boxes_.size());
-    bvh_.nodes.emplace_back();
-    divide(0, 0, static_cast<std::uint32_t>(order_.size()), 0);
-    for (const std::uint32_t i : order_) bvh_.items.push_back(items_[i]);
+  // Nodes of the subtree over `range`, its root first, into `nodes`; subtrees of at most `task_size` items that begin
+  // below it are left out and listed in `tasks`, where one is given.
+  struct Task {
+    Range range;
+    std::uint32_t node, slot;  // whose child it is
+  };
+  std::uint32_t build(const Range& range, std::vector<BvhNode>& nodes, std::vector<Task>* tasks,
+                      std::uint32_t task_size) {
+    const auto node = static_cast<std::uint32_t>(nodes.size());
+    nodes.emplace_back();
+    const Children children = divide(range);
+    for (std::uint32_t slot = 0; slot < BvhNode::kWidth; ++slot) {
+      const bool used = slot < children.size;
+      const Range child = used ? children.range[slot] : Range{};
+      const bool leaf = child.count <= Bvh::kMaxLeaf;
+      set_child(nodes[node], slot, child, leaf);
+      if (!used || leaf) continue;
+      if (tasks && child.count <= task_size)
+        tasks->push_back({child, node, slot});
+      else {
+        const std::uint32_t first = build(child, nodes, tasks, task_size);
+        nodes[node].first[slot] = first;
+      }
+    }
+    return node;
   }
 
  private:
-  glm::dvec3 center(std::uint32_t i) const { return 0.5 * boxes_[i].low + 0.5 * boxes_[i].high; }
+  struct Children {
+    std::array<Range, BvhNode::kWidth> range;
+    std::uint32_t size = 0;
+  };
 
-  void divide(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth) {
-    Box bounds, centers;
-    for (std::uint32_t k = first; k < first + count; ++k) {
-      bounds.grow(boxes_[order_[k]]);
-      centers.grow(center(order_[k]));
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      bvh_.nodes[node].low[static_cast<std::size_t>(axis)] = round_down(bounds.low[axis]);
-      bvh_.nodes[node].high[static_cast<std::size_t>(axis)] = round_up(bounds.high[axis]);
-    }
+  struct Bins {
+    std::array<std::array<Bounds, kMostBins>, 3> of;
+    Bins() {}  // those in use are set up by best_split()
+  };
 
-    const Split split = best_split(first, count, bounds, centers);
-    const bool worth_it = split.axis >= 0 && split.cost < kItemCost * count;
-    if (count <= kMaxLeaf && !worth_it) {
-      bvh_.nodes[node].first = first;
-      bvh_.nodes[node].count = count;
-      return;
+  static void set_child(BvhNode& node, std::uint32_t slot, const Range& child, bool leaf) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      node.face[axis][slot] = child.boxes.low[axis];
+      node.face[axis + 3][slot] = child.boxes.high[axis];
     }
-    const std::uint32_t middle = partition(first, count, centers, split, depth);
-    const auto left = static_cast<std::uint32_t>(bvh_.nodes.size());
-    bvh_.nodes.emplace_back();
-    bvh_.nodes.emplace_back();
-    bvh_.nodes[node].first = left;
-    bvh_.nodes[node].count = 0;
-    divide(left, first, middle - first, depth + 1);
-    divide(left + 1, middle, first + count - middle, depth + 1);
+    node.first[slot] = leaf ? child.first : 0;
+    node.count[slot] = leaf ? child.count : 0;
   }
 
-  int bin_of(std::uint32_t i, int axis, const Box& centers) const {
-    const double width = centers.high[axis] - centers.low[axis];
-    const double at = (center(i)[axis] - centers.low[axis]) / width;
-    return std::clamp(static_cast<int>(at * kBins), 0, kBins - 1);
-  }
-
-  Split best_split(std::uint32_t first, std::uint32_t count, const Box& bounds, const Box& centers) const {
-    Split best;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(centers.high[axis] > centers.low[axis])) continue;
-      std::array<Box, kBins> boxes;
-      std::array<std::uint32_t, kBins> counts{};
-      for (std::uint32_t k = first; k < first + count; ++k) {
-        const auto bin = static_cast<std::size_t>(bin_of(order_[k], axis, centers));
-        boxes[bin].grow(boxes_[order_[k]]);
-        ++counts[bin];
+  // Splits the largest part that is too large for a leaf, until all slots are taken.
+  Children divide(const Range& range) {
+    Children children;
+    children.range[children.size++] = range;
+    while (children.size < BvhNode::kWidth) {
+      int largest = -1;
+      float most = -1;
+      for (std::uint32_t i = 0; i < children.size; ++i) {
+        if (children.range[i].count <= Bvh::kMaxLeaf) continue;
+        const float area = children.range[i].boxes.half_area(unit_);
+        if (area > most) {
+          most = area;
+          largest = static_cast<int>(i);
+        }
       }
-      // Cost of cutting before each bin: areas from the right first, then sweep from the left.
-      std::array<double, kBins> right_cost{};
-      Box box;
+      if (largest < 0) break;
+      const std::array<Range, 2> parts = halves(children.range[static_cast<std::size_t>(largest)]);
+      children.range[static_cast<std::size_t>(largest)] = parts[0];
+      children.range[children.size++] = parts[1];
+    }
+    for (std::uint32_t i = 0; i < children.size; ++i) children.range[i].depth = range.depth + 1;
+    return children;
+  }
+
+  // Large ranges are judged by a sample of about this many items: their bins hold enough of them.
+  static constexpr std::uint32_t kSample = 2048;
+
+  Split best_split(const Range& range, const Binning& binning) const {
+    std::array<std::array<std::uint32_t, kMostBins>, 3> counts{};
+    Bins boxes;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t bin = 0; bin < binning.bins; ++bin) boxes.of[axis][bin] = Bounds{};
+    const std::uint32_t step = std::max(1u, range.count / kSample);
+    std::uint32_t sampled = 0;
+    for (std::uint32_t k = range.first; k < range.first + range.count; k += step) {
+      ++sampled;
+      const Bounds box = references_[k].box();
+      const auto bin = binning.of(box);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto b = static_cast<std::size_t>(bin[axis]);
+        boxes.of[axis][b].grow(box);
+        ++counts[axis][b];
+      }
+    }
+    // Cost of cutting before each bin: areas from the right first, then sweep from the left.
+    Split best;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (binning.per_width[axis] == 0) continue;
+      std::array<float, kMostBins> right_cost{};
+      Bounds box;
       std::uint32_t items = 0;
-      for (std::size_t bin = kBins - 1; bin > 0; --bin) {
-        box.grow(boxes[bin]);
-        items += counts[bin];
-        right_cost[bin] = box.half_area() * items;
+      for (std::size_t bin = binning.bins - 1; bin > 0; --bin) {
+        box.grow(boxes.of[axis][bin]);
+        items += counts[axis][bin];
+        right_cost[bin] = box.half_area(unit_) * static_cast<float>(items);
       }
       box = {};
       items = 0;
-      for (std::size_t bin = 1; bin < kBins; ++bin) {
-        box.grow(boxes[bin - 1]);
-        items += counts[bin - 1];
-        if (items == 0 || items == count) continue;
-        const double cost =
-            kNodeCost + kItemCost * (box.half_area() * items + right_cost[bin]) / bounds.half_area();
-        if (cost < best.cost) best = {axis, static_cast<int>(bin), cost};
+      for (std::size_t bin = 1; bin < binning.bins; ++bin) {
+        box.grow(boxes.of[axis][bin - 1]);
+        items += counts[axis][bin - 1];
+        if (items == 0 || items == sampled) continue;
+        const float cost = box.half_area(unit_) * static_cast<float>(items) + right_cost[bin];
+        if (cost < best.cost) best = {static_cast<int>(axis), static_cast<int>(bin), cost};
       }
     }
     return best;
   }
 
-  // Reorders [first, first + count) and returns where its right part begins; both parts are non-empty.
-  std::uint32_t partition(std::uint32_t first, std::uint32_t count, const Box& centers, const Split& split,
-                          int depth) {
-    const auto begin = order_.begin() + first, end = begin + count;
-    // Deep in a pathological scene, or where all centres coincide: halves, so that depth stays bounded.
+  // Reorders the range into two that are not empty.
+  std::array<Range, 2> halves(const Range& range) {
+    // Deep in a pathological scene, or where all centres coincide: by count, so that depth stays bounded.
     constexpr int kDepthOfHalving = Bvh::kMaxDepth - 34;
-    if (split.axis < 0 || depth >= kDepthOfHalving) {
-      const int axis = split.axis < 0 ? 0 : split.axis;
-      std::nth_element(begin, begin + count / 2, end, [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(center(a)[axis], a) < std::pair(center(b)[axis], b);
-      });
-      return first + count / 2;
-    }
-    const auto middle = std::partition(
-        begin, end, [&](std::uint32_t i) { return bin_of(i, split.axis, centers) < split.bin; });
-    return static_cast<std::uint32_t>(middle - order_.begin());
+    const Binning binning(range);
+    const Split split = range.depth < kDepthOfHalving ? best_split(range, binning) : Split{};
+    const std::uint32_t count = split.axis < 0 ? halve(range) : partition(range, binning, split);
+    return {part(range.first, count, range.depth),
+            part(range.first + count, range.count - count, range.depth)};
   }
 
-  std::span<const Box> boxes_;
-  std::span<const std::uint32_t> items_;
-  Bvh& bvh_;
-  std::vector<std::uint32_t> order_;
+  // Without a branch that nobody could predict: every reference is written to both sides, and stays on its own. The
+  // number of those on the left.
+  std::uint32_t partition(const Range& range, const Binning& binning, const Split& split) {
+    const auto axis = static_cast<std::size_t>(split.axis);
+    Reference *left = references_ + range.first, *right = spare_ + range.first;
+    for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
+      const Reference reference = references_[k];
+      const bool goes_left = binning.of(reference.box())[axis] < split.bin;
+      *left = *right = reference;
+      left += goes_left;
+      right += !goes_left;
+    }
+    std::copy(spare_ + range.first, right, left);
+    return static_cast<std::uint32_t>(left - references_) - range.first;
+  }
+
+  std::uint32_t halve(const Range& range) {
+    Reference* begin = references_ + range.first;
+    const Quad width = range.boxes.high - range.boxes.low;
+    const std::size_t axis =
+        width[0] >= width[1] ? (width[0] >= width[2] ? 0 : 2) : (width[1] >= width[2] ? 1 : 2);
+    std::nth_element(
+        begin, begin + range.count / 2, begin + range.count, [&](const Reference& a, const Reference& b) {
+          const float center_a = a.low[axis] + a.high[axis], center_b = b.low[axis] + b.high[axis];
+          return center_a < center_b || (center_a == center_b && a.item < b.item);
+        });
+    return range.count / 2;
+  }
+
+  Range part(std::uint32_t first, std::uint32_t count, int depth) const {
+    Range range{first, count, {}, {}, depth};
+    for (std::uint32_t k = first; k < first + count; ++k) {
+      const Bounds box = references_[k].box();
+      range.boxes.grow(box);
+      range.centers.grow(center_of(box));
+    }
+    return range;
+  }
+
+  Reference *references_, *spare_;
+  float unit_;
 };
+
+// body(block, item) for all items, block by block in parallel.
+constexpr int kBlock = 4096;
+template <class Body>
+void for_each_item(std::size_t items, int threads, const Body& body) {
+  const auto size = static_cast<int>(items);
+  parallel_for((size + kBlock - 1) / kBlock, threads, [&](int block, int) {
+    for (int i = block * kBlock; i < std::min(size, (block + 1) * kBlock); ++i)
+      body(static_cast<std::size_t>(block), static_cast<std::size_t>(i));
+  });
+}
+
+// Where the boxes are. A tree far from the world's origin is kept relative to its middle.
+void place(Bvh& bvh, const std::vector<std::uint32_t>& items, const std::function<Box(std::uint32_t)>& box_of,
+           int threads) {
+  std::vector<Box> of_block(items.size() / kBlock + 1);
+  for_each_item(items.size(), threads,
+                [&](std::size_t block, std::size_t i) { of_block[block].grow(box_of(items[i])); });
+  Box world;
+  for (const Box& box : of_block) world.grow(box);
+  for (int axis = 0; axis < 3; ++axis) {
+    bvh.reach = std::max({bvh.reach, std::abs(world.low[axis]), std::abs(world.high[axis])});
+    if (world.low[axis] > 0 || world.high[axis] < 0)
+      bvh.center[axis] = 0.5 * world.low[axis] + 0.5 * world.high[axis];
+  }
+}
+
+// All items as one range, their boxes relative to `center`.
+Range refer(const std::vector<std::uint32_t>& items, const std::function<Box(std::uint32_t)>& box_of,
+            const glm::dvec3& center, int threads, Reference* references) {
+  std::vector<Range> of_block(items.size() / kBlock + 1);
+  for_each_item(items.size(), threads, [&](std::size_t block, std::size_t i) {
+    const Box box = box_of(items[i]);
+    const glm::dvec3 low = box.low - center, high = box.high - center;
+    references[i] = {{round_down(low.x), round_down(low.y), round_down(low.z), 0},
+                     {round_up(high.x), round_up(high.y), round_up(high.z)},
+                     items[i]};
+    of_block[block].boxes.grow(references[i].box());
+    of_block[block].centers.grow(center_of(references[i].box()));
+  });
+  Range all;
+  all.count = static_cast<std::uint32_t>(items.size());
+  for (const Range& range : of_block) {
+    all.boxes.grow(range.boxes);
+    all.centers.grow(range.centers);
+  }
+  return all;
+}
+
+// The upper levels here, then the subtrees below them in parallel; which they are depends on the items alone.
+void build_nodes(Builder& builder, const Range& all, int threads, std::vector<BvhNode>& nodes) {
+  constexpr std::uint32_t kTaskSize = 8192;
+  std::vector<Builder::Task> tasks;
+  builder.build(all, nodes, &tasks, kTaskSize);
+  std::vector<std::vector<BvhNode>> subtrees(tasks.size());
+  parallel_for(static_cast<int>(tasks.size()), threads, [&](int i, int) {
+    const auto task = static_cast<std::size_t>(i);
+    builder.build(tasks[task].range, subtrees[task], nullptr, 0);
+  });
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const auto base = static_cast<std::uint32_t>(nodes.size());
+    nodes[tasks[i].node].first[tasks[i].slot] = base;
+    for (BvhNode& node : subtrees[i])
+      for (std::size_t slot = 0; slot < BvhNode::kWidth; ++slot)
+        if (node.count[slot] == 0) node.first[slot] += base;
+    nodes.insert(nodes.end(), subtrees[i].begin(), subtrees[i].end());
+  }
+}
 
 }  // namespace
 
-Bvh build_bvh(std::span<const Box> boxes, std::span<const std::uint32_t> items) {
+Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uint32_t)>& box_of,
+              int threads) {
   Bvh bvh;
-  if (boxes.empty()) return bvh;
-  for (const Box& box : boxes)
-    for (int axis = 0; axis < 3; ++axis)
-      bvh.reach = std::max({bvh.reach, std::abs(box.low[axis]), std::abs(box.high[axis])});
-  Builder(boxes, items, bvh).build();
+  if (items.empty()) return bvh;
+  place(bvh, items, box_of, threads);
+  const auto storage = std::make_unique_for_overwrite<Reference[]>(2 * items.size());
+  const Range all = refer(items, box_of, bvh.center, threads, storage.get());
+  const Quad extent = all.boxes.high - all.boxes.low;
+  const float longest = std::max({extent[0], extent[1], extent[2]});
+  Builder builder(storage.get(), storage.get() + items.size(), longest > 0 ? 1 / longest : 1);
+  build_nodes(builder, all, threads, bvh.nodes);
+  for (std::size_t i = 0; i < items.size(); ++i) items[i] = storage[i].item;
+  bvh.items = std::move(items);
   return bvh;
 }
 

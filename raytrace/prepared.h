@@ -8,24 +8,26 @@
 #include "common/model/place.h"
 #include "common/model/shading.h"
 #include "common/model/visibility.h"
-#include "raytrace/bvh.h"
+#include "raytrace/leaves.h"
 #include "raytrace/raytrace.h"
 
 namespace sidelight::raytrace {
 
 class Prepared {
  public:
-  explicit Prepared(const Scene& all) : Prepared(all, needs_of(all)) {}
-  Prepared(const Scene& scene, const Needs& needs);
+  explicit Prepared(const Scene& all, int threads = 1) : Prepared(all, needs_of(all), threads) {}
+  Prepared(const Scene& scene, const Needs& needs, int threads = 1);
 
   const Scene& scene;
   Needs needs;
   ShadingTablesOf<float> tables;
-  ShadingTablesOf<double> tables_in_double;   // for reference images
-  Bvh bvh;                              // over spheres and triangles
-  std::vector<std::uint32_t> planes;    // primitive numbers: infinite, so met one by one
-  std::vector<std::uint32_t> solids;    // objects that bound a medium; empty where refraction is off
-  std::vector<Bounds> bounds;           // of each solid
+  ShadingTablesOf<double> tables_in_double;  // for reference images
+  TriangleLeaves triangles;
+  SphereLeaves spheres;
+  bool all_cast_shadows = true;       // as far as materials say
+  std::vector<std::uint32_t> planes;  // primitive numbers: infinite, so met one by one
+  std::vector<std::uint32_t> solids;  // objects that bound a medium; empty where refraction is off
+  std::vector<Bounds> bounds;         // of each solid
 
   template <class Real>
   const ShadingTablesOf<Real>& tables_in() const {
@@ -36,26 +38,28 @@ class Prepared {
   }
 };
 
+bool casts_shadow(const Scene& scene, std::uint32_t primitive);
+
 // How triangles are decided: exactly, or as a fault on purpose (visibility_float.h).
 enum class Precision { exact, in_float };
 
 // The nearest hit after `after`; not found() if there is none. The same as nearest_of_all, found faster.
 Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
-            Precision precision = Precision::exact);
+            Precision precision = Precision::exact, Isa isa = best_isa());
 
 // Something that casts shadows and stands between the ray's origin and the light; not found() if nothing does. For a
 // point light the ray's direction is light - origin and the light is at t = 1; for a directional one (light ==
 // nullptr) it is infinitely far. Of several blockers any one is returned, the same one each time.
 // Only what is met after `start` counts.
 Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
-            const Hit& start = kRayStart, Precision precision = Precision::exact);
+            const Hit& start = kRayStart, Precision precision = Precision::exact, Isa isa = best_isa());
 
 // Where rays start that leave `place`, at which `ray` met `hit`: leaving_point of all that stands near.
 glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,
-                         SignCounts& counts);
+                         SignCounts& counts, Isa isa = best_isa());
 
 // All hits h with h.t in [from.t, last_t] that do not come before `from`, in order.
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,
-                              SignCounts& counts);
+                              SignCounts& counts, Isa isa = best_isa());
 
 }  // namespace sidelight::raytrace

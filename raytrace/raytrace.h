@@ -13,16 +13,19 @@
 
 namespace sidelight::raytrace {
 
-class Prepared;   // the bounding volume hierarchy and whatever else depends on the scene only
+class Prepared;  // the bounding volume hierarchy and whatever else depends on the scene only
 
 // `scene` must outlive the result. Its time is a renderer's build time.
 std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
 // The same, entering also what `needs` claims beyond needs_of(scene). Not one bit of the picture changes.
-std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene);
+std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene, int threads = 0);
 
 // The picture, as scene.trace asks for (depth, cut, switches). Layers: kAllLayers. Throws Interrupted when
 // options.cancel is raised.
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
+
+// The same picture, sample by sample by the recursion: the readable twin, for tests.
+Frame render_recursively(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
 // The same rays with their light in double, for a reference image: only a finished sample is rounded to float, and once
 // more the mean of a pixel's samples.

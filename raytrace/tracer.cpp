@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The ray tracer: pixel order. For each sample its eye ray, and what the recursion brings back along it.
+// The ray tracer: pixel order. For each sample its eye ray, and what the recursion brings back along it: tile by tile in
+// waves, or, for what those do not do, sample by sample.
+#include <algorithm>
 #include <vector>
 
 #include "common/float_state.h"
 #include "common/parallel.h"
 #include "common/picture/pixel.h"
+#include "raytrace/wave.h"
 #include "raytrace/whitted.h"
 
 namespace sidelight::raytrace {
@@ -36,18 +39,21 @@ Path eye_path(const Camera& camera, const Media& eye_media, int X, int Y) {
 }
 
 template <class Real>
-void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media, const Faults& faults, int y,
-               Frame& frame, RenderStats& stats) {
+void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media,
+               const RenderOptions& options, int y, Frame& frame, RenderStats& stats,
+               std::vector<double>& cut) {
   const int n = camera.n;
   NoRecorder<Real> nothing;
-  Whitted<Real, NoRecorder<Real>> whitted(prepared, stats, nothing, faults);
+  Whitted<Real, NoRecorder<Real>> whitted(prepared, stats, nothing, options.faults, options.isa);
   PixelWriter pixel(frame, camera.depth_scale());
   for (int x = frame.window.x0; x < frame.window.x1; ++x) {
     for (int Y = n * y; Y < n * (y + 1); ++Y)
       for (int X = n * x; X < n * (x + 1); ++X) {
         ++stats.rays.primary;
         const std::uint64_t tests_before = stats.signs.tests;
-        Sample sample = to_sample(whitted.trace(eye_path(camera, eye_media, X, Y)));
+        const Traced<Real> traced = whitted.trace(eye_path(camera, eye_media, X, Y));
+        if (!cut.empty()) cut[frame.index(x, y)] += traced.cut_weight;
+        Sample sample = to_sample(traced);
         sample.tests = stats.signs.tests - tests_before;
         pixel.add(sample);
       }
@@ -57,32 +63,61 @@ void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_
 
 }  // namespace
 
-std::shared_ptr<const Prepared> prepare(const Scene& scene, int) { return prepare_for(needs_of(scene), scene); }
-std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene) {
+std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads) {
+  return prepare_for(needs_of(scene), scene, threads);
+}
+std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene, int threads) {
   const StandardFloatState nearest_and_denormals;
-  return std::make_shared<const Prepared>(scene, needs);
+  return std::make_shared<const Prepared>(scene, needs, threads);
 }
 
 namespace {
 
+constexpr int kWaveSamples = 32;  // along the edge of a tile: enough to fill lanes, few enough for the cache
+
+// parts(index) of each, with the statistics of each apart, so that their sums do not depend on which thread did what.
+template <class Part>
+void trace_parts(int size, const RenderOptions& options, RenderStats& sum, const Part& part) {
+  std::vector<RenderStats> stats(static_cast<std::size_t>(size));
+  std::atomic<int> done{0};
+  parallel_for(size, options.threads, [&](int index, int thread) {
+    if (options.cancel && *options.cancel) throw Interrupted();
+    part(index, thread, stats[static_cast<std::size_t>(index)]);
+    if (options.progress) options.progress(static_cast<double>(++done) / size);
+  });
+  for (const RenderStats& s : stats) sum.add_counts(s);
+}
+
+void trace_in_waves(const Prepared& prepared, const Camera& camera, const Media& eye_media,
+                    const RenderOptions& options, Frame& frame, std::vector<double>& cut) {
+  const int edge = std::max(1, std::min(options.tile, (kWaveSamples + camera.n - 1) / camera.n));
+  const int columns = (frame.width() + edge - 1) / edge, rows = (frame.height() + edge - 1) / edge;
+  std::vector<std::unique_ptr<Wave>> waves(static_cast<std::size_t>(thread_count(options.threads)));
+  trace_parts(columns * rows, options, frame.stats, [&](int tile, int thread, RenderStats& stats) {
+    std::unique_ptr<Wave>& wave = waves[static_cast<std::size_t>(thread)];
+    if (!wave) wave = std::make_unique<Wave>(prepared, camera, eye_media, options);
+    const Rect& window = frame.window;
+    const int x0 = window.x0 + tile % columns * edge, y0 = window.y0 + tile / columns * edge;
+    wave->trace({x0, y0, std::min(x0 + edge, window.x1), std::min(y0 + edge, window.y1)}, stats);
+    wave->write(frame, cut);
+  });
+}
+
 template <class Real>
-Frame render_in(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
+Frame render_in(const Prepared& prepared, const Camera& camera, const RenderOptions& options, bool in_waves) {
   const StandardFloatState nearest_and_denormals;
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);
   const Media eye_media = media_at(prepared, camera.eye);
-  // Statistics by row, so that their sums do not depend on which thread did what.
-  std::vector<RenderStats> stats(static_cast<std::size_t>(frame.height()));
-  std::atomic<int> done{0};
-  parallel_for(frame.height(), options.threads, [&](int row, int) {
-    if (options.cancel && *options.cancel) throw Interrupted();
-    trace_row<Real>(prepared, camera, eye_media, options.faults, frame.window.y0 + row, frame,
-                    stats[static_cast<std::size_t>(row)]);
-    if (options.progress) options.progress(static_cast<double>(++done) / frame.height());
-  });
-  for (const RenderStats& s : stats) {
-    frame.stats.add_counts(s);
-    frame.stats.cut_weight += s.cut_weight;
-  }
+  // Weights not sent, by pixel, so that their sum does not depend on tiles.
+  const bool secondary = prepared.needs[Need::mirrors] || prepared.needs[Need::refraction];
+  std::vector<double> cut(secondary ? frame.pixels() : 0);
+  if (in_waves)
+    trace_in_waves(prepared, camera, eye_media, options, frame, cut);
+  else
+    trace_parts(frame.height(), options, frame.stats, [&](int row, int, RenderStats& stats) {
+      trace_row<Real>(prepared, camera, eye_media, options, frame.window.y0 + row, frame, stats, cut);
+    });
+  for (const double weight : cut) frame.stats.cut_weight += weight;
   frame.stats.cut_weight /= static_cast<double>(frame.pixels()) * camera.n * camera.n;
   return frame;
 }
@@ -90,10 +125,15 @@ Frame render_in(const Prepared& prepared, const Camera& camera, const RenderOpti
 }  // namespace
 
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
-  return render_in<float>(prepared, camera, options);
+  const bool plain = !options.faults.shadow_offset && !options.faults.float_precision;
+  return render_in<float>(prepared, camera, options, plain && (options.layers & layer_bit(Layer::cost)) == 0);
 }
 Frame render_in_double(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
-  return render_in<double>(prepared, camera, options);
+  return render_in<double>(prepared, camera, options, false);
+}
+
+Frame render_recursively(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
+  return render_in<float>(prepared, camera, options, false);
 }
 
 RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y) {

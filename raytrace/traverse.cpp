@@ -1,91 +1,82 @@
 // SPDX-License-Identifier: MIT
-// The tracer's questions about a scene, answered through the hierarchy. Which surface is met is decided by
+// The tracer's questions about a scene, answered through the hierarchies. Which surface is met is decided by
 // common/model/visibility.h alone; here only candidates are found.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 
 #include "common/model/visibility_float.h"
-#include "raytrace/prepared.h"
+#include "raytrace/kernels.h"
 
 namespace sidelight::raytrace {
 namespace {
 
-Box box_of(const Scene& scene, const PrimitiveRef& ref) {
-  Box box;
-  if (ref.kind == ObjectKind::sphere) {
-    const Sphere& sphere = scene.spheres[ref.index];
-    box.grow(sphere.center - sphere.radius);
-    box.grow(sphere.center + sphere.radius);
-  } else {
-    for (const std::uint32_t v : scene.triangles[ref.index].vertex) box.grow(scene.positions[v]);
-  }
-  return box;
-}
-
 bool is_finite(const Ray& ray) {
   const glm::dvec3 sum = glm::abs(ray.origin) + glm::abs(ray.direction);
-  return std::isfinite(sum.x + sum.y + sum.z);
+  return std::isfinite(sum.x + sum.y + sum.z) && ray.direction != glm::dvec3(0);
 }
 
-bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
-  return scene.materials[primitive_material(scene, primitive)].casts_shadow;
-}
-
-// All primitives that may be met at a depth <= limit: visit(primitive, limit) returns the new limit, negative to stop.
+// All primitives whose boxes may be met at a depth <= limit, unfiltered, and all planes: visit(primitive, limit) returns
+// the new limit, negative to stop.
 template <class Visit>
-void candidates(const Prepared& prepared, const Ray& ray, double limit, SignCounts& counts, const Visit& visit) {
-  if (!is_finite(ray)) return;   // it meets nothing, but no box would turn it away
-  for (const std::uint32_t primitive : prepared.planes) {
-    limit = visit(primitive, limit);
-    if (limit < 0) return;
-  }
-  counts.nodes += traverse(prepared.bvh, ray, limit, visit);
+void candidates(const Prepared& prepared, const Ray& ray, double limit, SignCounts& counts, Isa isa,
+                const Visit& visit) {
+  if (!is_finite(ray)) return;  // it meets nothing, but no box would turn it away
+  const auto keep = [&](std::uint32_t primitive, double current) {
+    return limit = visit(primitive, current);
+  };
+  for (const std::uint32_t primitive : prepared.planes)
+    if (keep(primitive, limit) < 0) return;
+  counts.nodes += traverse(prepared.triangles.bvh, ray, limit, keep, isa);
+  if (limit >= 0) counts.nodes += traverse(prepared.spheres.bvh, ray, limit, keep, isa);
 }
 
 // intersect_one: intersect, or intersect_in_float.
 template <auto intersect_one>
-Hit nearest_by(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts) {
+Hit blocking_hit(const Scene& scene, std::uint32_t primitive, const Ray& ray, const glm::dvec3* light,
+                 const Hit& start, SignCounts& counts) {
+  if (!casts_shadow(scene, primitive)) return {};
+  const Hit hit = intersect_one(scene, primitive, ray, start, counts);
+  if (hit.found() && (!light || before_light(scene, hit, ray, *light, counts))) return hit;
+  return {};
+}
+
+// The same questions for a fault on purpose, whose hits no filter knows.
+Hit nearest_in_float(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
+                     Isa isa) {
   Hit best;
-  candidates(prepared, ray, best.t, counts, [&](std::uint32_t primitive, double) {
-    const Hit hit = intersect_one(prepared.scene, primitive, ray, after, counts);
+  candidates(prepared, ray, best.t, counts, isa, [&](std::uint32_t primitive, double) {
+    const Hit hit = intersect_in_float(prepared.scene, primitive, ray, after, counts);
     if (hit.found() && before(hit, best)) best = hit;
     return best.t;
   });
   return best;
 }
 
-template <auto intersect_one>
-Hit blocker_by(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
-               SignCounts& counts) {
+Hit blocker_in_float(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
+                     SignCounts& counts, Isa isa) {
   Hit found;
   const double limit = light ? 1 : std::numeric_limits<double>::infinity();
-  candidates(prepared, ray, limit, counts, [&](std::uint32_t primitive, double current) {
-    if (!casts_shadow(prepared.scene, primitive)) return current;
-    const Hit hit = intersect_one(prepared.scene, primitive, ray, start, counts);
-    if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return current;
-    found = hit;
-    return -1.0;
+  candidates(prepared, ray, limit, counts, isa, [&](std::uint32_t primitive, double current) {
+    found = blocking_hit<intersect_in_float>(prepared.scene, primitive, ray, light, start, counts);
+    return found.found() ? -1.0 : current;
   });
   return found;
 }
 
 }  // namespace
 
-Prepared::Prepared(const Scene& s, const Needs& n)
-    : scene(s), needs(n), tables(make_shading_tables(s, n)), tables_in_double(make_shading_tables<double>(s, n)) {
-  std::vector<Box> boxes;
-  std::vector<std::uint32_t> items;
-  for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
-    const PrimitiveRef ref = primitive_ref(scene, primitive);
-    if (ref.kind == ObjectKind::plane) {
-      planes.push_back(primitive);
-    } else if (ref.kind == ObjectKind::sphere || !scene.triangles[ref.index].degenerate) {
-      boxes.push_back(box_of(scene, ref));
-      items.push_back(primitive);
-    }
-  }
-  bvh = build_bvh(boxes, items);
+Prepared::Prepared(const Scene& s, const Needs& n, int threads)
+    : scene(s),
+      needs(n),
+      tables(make_shading_tables(s, n)),
+      tables_in_double(make_shading_tables<double>(s, n)),
+      triangles(triangle_leaves(s, threads)),
+      spheres(sphere_leaves(s, threads)) {
+  for (const Material& material : scene.materials)
+    all_cast_shadows = all_cast_shadows && material.casts_shadow;
+  for (const Object& object : scene.objects)
+    if (object.kind == ObjectKind::plane) planes.push_back(object.first_primitive);
   if (!scene.trace.refraction || !needs[Need::refraction]) return;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     if (scene.objects[i].solid) {
@@ -94,35 +85,61 @@ Prepared::Prepared(const Scene& s, const Needs& n)
     }
 }
 
-Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts, Precision precision) {
-  return precision == Precision::exact ? nearest_by<intersect>(prepared, ray, after, counts)
-                                       : nearest_by<intersect_in_float>(prepared, ray, after, counts);
+bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
+  return scene.materials[primitive_material(scene, primitive)].casts_shadow;
 }
 
-Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts, const Hit& start,
-            Precision precision) {
-  return precision == Precision::exact ? blocker_by<intersect>(prepared, ray, light, start, counts)
-                                       : blocker_by<intersect_in_float>(prepared, ray, light, start, counts);
+Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
+            Precision precision, Isa isa) {
+  if (precision == Precision::in_float) return nearest_in_float(prepared, ray, after, counts, isa);
+  Hit best;
+  if (!is_finite(ray)) return best;
+  for (const std::uint32_t primitive : prepared.planes) {
+    const Hit hit = intersect(prepared.scene, primitive, ray, after, counts);
+    if (hit.found() && before(hit, best)) best = hit;
+  }
+  kernels_for(isa).nearest(prepared, ray, after, best, counts);
+  return best;
+}
+
+Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
+            const Hit& start, Precision precision, Isa isa) {
+  if (precision == Precision::in_float) return blocker_in_float(prepared, ray, light, start, counts, isa);
+  if (!is_finite(ray)) return {};
+  for (const std::uint32_t primitive : prepared.planes)
+    if (const Hit hit = blocking_hit<intersect>(prepared.scene, primitive, ray, light, start, counts);
+        hit.found())
+      return hit;
+  return kernels_for(isa).blocker(prepared, ray, light, start, counts);
 }
 
 glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,
-                         SignCounts& counts) {
-  std::vector<std::uint32_t> near;   // empty, but at edges
-  const auto add = [&](std::uint32_t primitive) {
+                         SignCounts& counts, Isa isa) {
+  std::vector<std::uint32_t> near;  // empty, but at edges
+  auto add = [&](std::uint32_t primitive) {
     if (stands_near(prepared.scene, primitive, ray, hit, place, counts)) near.push_back(primitive);
   };
   for (const std::uint32_t primitive : prepared.planes) add(primitive);
-  visit_near(prepared.bvh, place.point, nearness(ray, hit, place, prepared.bvh.reach), add);
+  const auto question = [&](const Bvh& bvh) {
+    return NearQuestion{
+        place.point, nearness(ray, hit, place, bvh.reach), hit.primitive, &add,
+        [](void* to, std::uint32_t primitive) { (*static_cast<decltype(add)*>(to))(primitive); }};
+  };
+  const Kernels& kernels = kernels_for(isa);
+  if (!prepared.triangles.bvh.nodes.empty())
+    kernels.near_triangles(prepared.triangles, question(prepared.triangles.bvh));
+  if (!prepared.spheres.bvh.nodes.empty())
+    kernels.near_spheres(prepared.spheres, question(prepared.spheres.bvh));
   std::sort(near.begin(), near.end());
   return leaving_point(prepared.scene, ray, hit, place, near, counts);
 }
 
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,
-                              SignCounts& counts) {
+                              SignCounts& counts, Isa isa) {
   std::vector<Hit> hits;
-  candidates(prepared, ray, last_t, counts, [&](std::uint32_t primitive, double limit) {
+  candidates(prepared, ray, last_t, counts, isa, [&](std::uint32_t primitive, double limit) {
     Hit hit = intersect(prepared.scene, primitive, ray, kRayStart, counts);
-    while (hit.found() && hit.t <= last_t) {   // a sphere may be met twice
+    while (hit.found() && hit.t <= last_t) {  // a sphere may be met twice
       if (!before(hit, from)) hits.push_back(hit);
       hit = intersect(prepared.scene, primitive, ray, hit, counts);
     }
@@ -130,6 +147,11 @@ std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hi
   });
   std::sort(hits.begin(), hits.end(), before);
   return hits;
+}
+
+std::uint64_t visit_leaves(Isa isa, const Bvh& bvh, const Ray& ray, double limit,
+                           const LeafVisitor& visitor) {
+  return kernels_for(isa).visit_leaves(bvh, ray, limit, visitor);
 }
 
 }  // namespace sidelight::raytrace

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "raytrace/whitted.h"
 
-#include <algorithm>
-
-#include "common/model/optics.h"
-
 namespace sidelight::raytrace {
 namespace {
 
@@ -12,15 +8,6 @@ template <class Real>
 glm::vec<3, Real> rgb(const Vec3<Real>& v) {
   return {v.x, v.y, v.z};
 }
-double largest(const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); }
-
-// w(r) = 1 / max(1, q0 + q1 r + q2 r²); a ray that meets nothing has r -> infinity.
-double distance_weight(const Attenuation& q, const Path& path, const Hit& hit) {
-  if (!hit.found()) return q.q1 > 0 || q.q2 > 0 ? 0 : 1 / std::max(1.0, q.q0);
-  const double r = (hit.t - path.start.t) * glm::length(path.ray.direction);
-  return 1 / std::max(1.0, q.q0 + q.q1 * r + q.q2 * r * r);
-}
-
 }  // namespace
 
 // color = c1 local + c2 w(r) trace(reflected) + c3 w(r) trace(refracted)
@@ -31,8 +18,8 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
   Surface surface;
   recorder_.begin(path);
   // A surface inside a medium that goes on behind it is passed without colour; what the eye itself meets is shaded.
-  for (Hit hit = nearest(prepared_, path.ray, path.start, stats_.signs, precision_);;
-       hit = nearest(prepared_, path.ray, hit, stats_.signs, precision_)) {
+  for (Hit hit = nearest(prepared_, path.ray, path.start, stats_.signs, precision_, isa_);;
+       hit = nearest(prepared_, path.ray, hit, stats_.signs, precision_, isa_)) {
     out.hit = hit;
     if (!hit.found()) {
       out.color = out.ambient = Rgb(scene_.background);
@@ -50,8 +37,9 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
   out.normal = glm::vec3(surface.normal);
 
   const bool secondary = prepared_.needs[Need::mirrors] || prepared_.needs[Need::refraction];
-  glm::dvec3 from{0};   // where rays start that leave
-  if (secondary || scene_.trace.shadows) from = leaving_point(prepared_, path.ray, out.hit, surface, stats_.signs);
+  glm::dvec3 from{0};  // where rays start that leave
+  if (secondary || scene_.trace.shadows)
+    from = leaving_point(prepared_, path.ray, out.hit, surface, stats_.signs, isa_);
   add_local(surface, path.ray, from, out);
   if (secondary) add_secondary(path, surface, from, out);
   out.color = (out.color + out.mirrored) + out.refracted;
@@ -73,7 +61,7 @@ void Whitted<Real, Recorder>::add_local(const Surface& surface, const Ray& ray, 
     diffuse = diffuse + term.diffuse;
     specular = specular + term.specular;
     const Vec3<Real> total = term.total();
-    if (total.x == 0 && total.y == 0 && total.z == 0) continue;   // nothing to miss, so no shadow ray
+    if (total.x == 0 && total.y == 0 && total.z == 0) continue;  // nothing to miss, so no shadow ray
 
     bool b = true;
     Hit blocker;
@@ -99,73 +87,41 @@ void Whitted<Real, Recorder>::add_local(const Surface& surface, const Ray& ray, 
 
 // b_i = 0 where this finds something.
 template <class Real, class Recorder>
-Hit Whitted<Real, Recorder>::shadow_blocker(const Surface& surface, const glm::dvec3& from, const Light& light) {
+Hit Whitted<Real, Recorder>::shadow_blocker(const Surface& surface, const glm::dvec3& from,
+                                            const Light& light) {
   ++stats_.rays.shadow;
   const glm::dvec3 origin = shadow_offset_ ? surface.point : from;
-  const Ray ray = make_ray(origin, light.directional ? -light.direction : light.position - origin);
+  const Ray ray = ray_to_light(origin, light);
   const Hit start{shadow_offset_ ? *shadow_offset_ / glm::length(ray.direction) : kRayStart.t, kNone};
-  return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start, precision_);
+  return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start, precision_,
+                 isa_);
 }
 
 template <class Real, class Recorder>
 void Whitted<Real, Recorder>::add_secondary(const Path& path, const Surface& surface, const glm::dvec3& from,
                                             Traced<Real>& out) {
-  const Material& material = scene_.materials[surface.material];
-  const glm::dvec3 c2 = scene_.trace.reflection ? material.reflect : glm::dvec3(0);
-  const glm::dvec3 c3 = scene_.trace.refraction ? material.refract : glm::dvec3(0);
-  if (largest(c2) == 0 && largest(c3) == 0) return;
-
-  const glm::dvec3 d = glm::normalize(path.ray.direction);
-  Path mirrored = path;
-  mirrored.kind = RayKind::mirrored;
-  mirrored.ray = make_ray(from, reflect_direction(d, surface.normal, surface.facing));
-  mirrored.start = kRayStart;
-
-  if (largest(c3) == 0) {
-    out.mirrored = follow(std::move(mirrored), c2);
-    return;
-  }
-  Path refracted = path;
-  if (!scene_.objects[surface.object].solid) {
-    // A sheet without an inside: straight on, along the same ray.
-    refracted.kind = RayKind::straight;
-    refracted.start = out.hit;
-  } else {
-    refracted.kind = RayKind::refracted;
-    refracted.media = media_behind(prepared_, path.ray, out.hit, surface, path.media, stats_.signs);
-    const double eta = path.media.ior(scene_) / refracted.media.ior(scene_);
-    const std::optional<glm::dvec3> t = refract_direction(d, surface.normal, surface.facing, eta);
-    if (!t) {   // total internal reflection: one ray carries both weights
-      mirrored.kind = RayKind::internally_reflected;
-      out.mirrored = follow(std::move(mirrored), c2 + c3);
-      return;
-    }
-    // It starts before the surface too, meets it again and passes it, since by then it is in the medium behind; and no
-    // other surface that touches this one is jumped over.
-    refracted.ray = make_ray(from, *t);
-    refracted.start = kRayStart;
-  }
-  out.mirrored = follow(std::move(mirrored), c2);
-  out.refracted = follow(std::move(refracted), c3);
+  Departures leaving = departures(prepared_, path, out.hit, surface, from, stats_.signs);
+  out.mirrored = follow(std::move(leaving.mirrored), out.cut_weight);
+  out.refracted = follow(std::move(leaving.refracted), out.cut_weight);
 }
 
 // c w(r) trace(path), or black where the path is too deep or weighs too little.
 template <class Real, class Recorder>
-glm::vec<3, Real> Whitted<Real, Recorder>::follow(Path path, const glm::dvec3& c) {
+glm::vec<3, Real> Whitted<Real, Recorder>::follow(Departure leaving, double& cut_weight) {
+  auto& [path, c] = leaving;
   if (largest(c) == 0) return Rgb(0);
-  path.weight *= largest(c);
-  if (path.depth >= scene_.trace.depth || path.weight < scene_.trace.contribution_cut) {
-    stats_.cut_weight += path.weight;
+  if (!send(scene_, c, path)) {
+    cut_weight += path.weight;
     recorder_.not_sent(path, c);
     return Rgb(0);
   }
-  ++path.depth;
-  const bool mirror = path.kind == RayKind::mirrored || path.kind == RayKind::internally_reflected;
-  ++(mirror ? stats_.rays.reflection : stats_.rays.refraction);
+  ++(is_mirrored(path.kind) ? stats_.rays.reflection : stats_.rays.refraction);
   const Traced<Real> traced = trace(path);
-  const Real w = prepared_.needs[Need::secondary_attenuation]
-                     ? static_cast<Real>(distance_weight(scene_.trace.secondary_attenuation, path, traced.hit))
-                     : Real(1);
+  cut_weight += traced.cut_weight;
+  const Real w =
+      prepared_.needs[Need::secondary_attenuation]
+          ? static_cast<Real>(distance_weight(scene_.trace.secondary_attenuation, path, traced.hit))
+          : Real(1);
   recorder_.counted(c, w);
   return Rgb(c) * (w * traced.color);
 }

@@ -8,9 +8,8 @@
 #include <optional>
 
 #include "common/picture/frame.h"
-#include "raytrace/path.h"
-#include "raytrace/prepared.h"
 #include "raytrace/recorder.h"
+#include "raytrace/secondary.h"
 
 namespace sidelight::raytrace {
 
@@ -25,6 +24,7 @@ struct Traced {
   Hit hit;
   std::uint32_t object = kNone;
   glm::vec3 normal{0};
+  double cut_weight = 0;  // path weights of the rays below that were not sent
 };
 
 // Recorder: NoRecorder or TreeRecorder (recorder.h).
@@ -33,14 +33,16 @@ class Whitted {
  public:
   using Rgb = glm::vec<3, Real>;
 
-  Whitted(const Prepared& prepared, RenderStats& stats, Recorder& recorder, const Faults& faults = {})
+  Whitted(const Prepared& prepared, RenderStats& stats, Recorder& recorder, const Faults& faults = {},
+          Isa isa = best_isa())
       : prepared_(prepared),
         scene_(prepared.scene),
         tables_(prepared.tables_in<Real>()),
         stats_(stats),
         recorder_(recorder),
         shadow_offset_(faults.shadow_offset),
-        precision_(faults.float_precision ? Precision::in_float : Precision::exact) {}
+        precision_(faults.float_precision ? Precision::in_float : Precision::exact),
+        isa_(isa) {}
 
   Traced<Real> trace(const Path& path);
 
@@ -48,15 +50,16 @@ class Whitted {
   void add_local(const Surface& surface, const Ray& ray, const glm::dvec3& from, Traced<Real>& out);
   Hit shadow_blocker(const Surface& surface, const glm::dvec3& from, const Light& light);
   void add_secondary(const Path& path, const Surface& surface, const glm::dvec3& from, Traced<Real>& out);
-  Rgb follow(Path path, const glm::dvec3& c);
+  Rgb follow(Departure leaving, double& cut_weight);
 
   const Prepared& prepared_;
   const Scene& scene_;
   const ShadingTablesOf<Real>& tables_;
   RenderStats& stats_;
   Recorder& recorder_;
-  std::optional<double> shadow_offset_;   // faults on purpose (faults.h)
+  std::optional<double> shadow_offset_;  // faults on purpose (faults.h)
   Precision precision_;
+  Isa isa_;
 };
 
 extern template class Whitted<float, NoRecorder<float>>;

@@ -15,21 +15,27 @@ using Ints = decltype(to_bits(F{}));
 
 // The smaller (greater) of each lane; a where they compare equal. Not for NaN.
 template <class F>
-F lane_min(const F& a, const F& b) {
-  return select<F>(b < a, b, a);
+[[gnu::always_inline]] inline F lane_min(const F& a, const F& b) {
+  if constexpr (kLanes<F> == 1)
+    return b < a ? b : a;
+  else
+    return stdx::min(b, a);  // one instruction, which keeps its second operand where they compare equal
 }
 template <class F>
-F lane_max(const F& a, const F& b) {
-  return select<F>(a < b, b, a);
+[[gnu::always_inline]] inline F lane_max(const F& a, const F& b) {
+  if constexpr (kLanes<F> == 1)
+    return a < b ? b : a;
+  else
+    return stdx::max(b, a);
 }
 template <class F>
-F lane_abs(const F& a) {
-  return select<F>(a < F(0), -a, a);
+[[gnu::always_inline]] inline F lane_abs(const F& a) {
+  return lane_max<F>(a, -a);
 }
 
 // Of a mask of F's lanes: whether any holds, and how many do.
 template <class F>
-bool any(const Mask<F>& mask) {
+[[gnu::always_inline]] inline bool any(const Mask<F>& mask) {
   if constexpr (kLanes<F> == 1)
     return mask;
   else
@@ -41,6 +47,16 @@ int count(const Mask<F>& mask) {
     return mask ? 1 : 0;
   else
     return stdx::popcount(mask);
+}
+
+// One bit for each of F's lanes, the first lane's lowest.
+template <class F>
+[[gnu::always_inline]] inline std::uint32_t mask_bits(const Mask<F>& mask) {
+  static_assert(kLanes<F> <= 32);
+  if constexpr (kLanes<F> == 1)
+    return mask ? 1 : 0;
+  else
+    return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
 }
 
 // A mask of F's lanes as one of the integers beside them.

@@ -201,10 +201,14 @@ Place locate(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& cou
       break;
   }
   place.facing = place.entering ? place.outward : -place.outward;
-  // Two surfaces whose points cannot be told apart: 2 clearances, seen along the ray, and the rounding of two depths.
-  const double along = std::abs(glm::dot(ray.direction, place.outward));
-  place.together = hit.t + 0x1p-46 * hit.t + (along > 0 ? 4 * place.clearance / along : 0);
+  place.together = together_depth(ray, hit, place);
   return place;
+}
+
+// Two surfaces whose points cannot be told apart: 2 clearances, seen along the ray, and the rounding of two depths.
+double together_depth(const Ray& ray, const Hit& hit, const Place& place) {
+  const double along = std::abs(glm::dot(ray.direction, place.facing));
+  return hit.t + 0x1p-46 * hit.t + (along > 0 ? 4 * place.clearance / along : 0);
 }
 
 double nearness(const Ray& ray, const Hit& hit, const Place& place, double reach) {

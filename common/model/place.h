@@ -14,15 +14,18 @@ namespace sidelight {
 
 struct Place {
   glm::dvec3 point{0};
-  glm::dvec3 outward{0};           // Ng: unit geometric normal, outward
-  glm::dvec3 facing{0};            // Nv: the same, turned against the ray
-  bool entering = false;           // the ray comes from the outward side (decided exactly)
-  std::array<double, 3> barycentric{};   // triangles: weights of the three vertices: >= 0, sum 1 to rounding
-  double clearance = 0;            // point +- clearance * outward lies on that side, beyond all rounding
-  double together = 0;             // surfaces of depth <= together count as crossed with this one
+  glm::dvec3 outward{0};                // Ng: unit geometric normal, outward
+  glm::dvec3 facing{0};                 // Nv: the same, turned against the ray
+  bool entering = false;                // the ray comes from the outward side (decided exactly)
+  std::array<double, 3> barycentric{};  // triangles: weights of the three vertices: >= 0, sum 1 to rounding
+  double clearance = 0;                 // point +- clearance * outward lies on that side, beyond all rounding
+  double together = 0;                  // surfaces of depth <= together count as crossed with this one
 };
 
 Place locate(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts);
+
+// `together` of a place whose facing and clearance are known.
+double together_depth(const Ray& ray, const Hit& hit, const Place& place);
 
 // ---- Rays that leave ----
 //
@@ -34,8 +37,8 @@ Place locate(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& cou
 double nearness(const Ray& ray, const Hit& hit, const Place& place, double reach);
 
 // Whether the primitive is near, is another one, and can be met by rays that leave. A cheap no in most cases.
-bool stands_near(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& hit, const Place& place,
-                 SignCounts& counts);
+bool stands_near(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& hit,
+                 const Place& place, SignCounts& counts);
 
 // `near`: the primitives of which stands_near() is true, ascending.
 glm::dvec3 leaving_point(const Scene& scene, const Ray& ray, const Hit& hit, const Place& place,

@@ -107,15 +107,32 @@ void ShadingBatch::set(std::size_t i, const ShadingPoint<float>& point, std::uin
   put(high, i, point.high);
   put(low, i, point.low);
   put(normal, i, point.normal);
+  put(facing, i, point.facing);
   put(to_viewer, i, point.to_viewer);
   material[i] = material_number;
 }
 
 void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
   switch (isa) {
-    case Isa::scalar: return shade_scalar(tables, batch, with_parts);
-    case Isa::avx2: return shade_avx2(tables, batch, with_parts);
-    case Isa::avx512: return shade_avx512(tables, batch, with_parts);
+    case Isa::scalar:
+      return shade_scalar(tables, batch, with_parts);
+    case Isa::avx2:
+      return shade_avx2(tables, batch, with_parts);
+    case Isa::avx512:
+      return shade_avx512(tables, batch, with_parts);
+  }
+}
+
+void light_terms(Isa isa, const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
+                 LitBatch& out) {
+  out.light.resize(tables.lights.size());
+  switch (isa) {
+    case Isa::scalar:
+      return light_terms_scalar(tables, batch, with_parts, out);
+    case Isa::avx2:
+      return light_terms_avx2(tables, batch, with_parts, out);
+    case Isa::avx512:
+      return light_terms_avx512(tables, batch, with_parts, out);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From surfaces to light: the scene's materials and lights as the kernel reads them, in float or double, and the
-// z-buffer's shading of many visible points at once. phong.h has the model itself; this is where double ends and, in
+// shading of many visible points at once. phong.h has the model itself; this is where double ends and, in
 // every picture but a reference image, float begins.
 #pragma once
 
@@ -56,17 +56,35 @@ struct ShadingBatch {
 
   int size = 0;
   alignas(64) Rgb high{}, low{}, normal{}, to_viewer{};   // V only where some material of the group is shiny
+  alignas(64) Rgb facing{};                               // only light_terms() asks for it
   std::array<std::uint32_t, static_cast<std::size_t>(kCapacity)> material{};   // into ShadingTables::materials
   // Results, c1 included: R = local (ka Ia + sum T_i), and its three parts, if asked for.
   alignas(64) Rgb unshadowed{}, ambient_layer{}, diffuse_layer{}, specular_layer{};
 
   bool full() const { return size == kCapacity; }
-  // Entry i. A batch keeps no facing, and takes the coefficients from the tables.
+  // Entry i. A batch takes the coefficients from the tables.
   void set(std::size_t i, const ShadingPoint<float>& point, std::uint32_t material_number);
 };
 
 // Fills the results of entries [0, size); the three parts of R if `with_parts`. The same bytes for every isa. `isa` must
 // be one the machine has.
 void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_parts = true);
+
+// What each light adds to the points of a batch where nothing blocks it, for whoever asks that: c1 left out.
+struct LightTerms {
+  ShadingBatch::Rgb total{};      // T_i
+  ShadingBatch::Channel state{};  // kDark, kSelfShadowed or kAsk
+  static constexpr float kDark = 0;          // T_i is zero
+  static constexpr float kSelfShadowed = 1;  // b_i = 0 without a ray
+  static constexpr float kAsk = 2;
+};
+struct LitBatch {
+  alignas(64) ShadingBatch::Rgb ambient{}, diffuse{}, specular{};  // ka Ia, and the sums of the parts of all T_i
+  std::vector<LightTerms> light;                                   // as many as the tables have
+};
+
+// Fills entries [0, size) of `out`; the sums only if `with_parts`. The same bytes for every isa, and those of
+// light_term().
+void light_terms(Isa isa, const ShadingTables& tables, const ShadingBatch& batch, bool with_parts, LitBatch& out);
 
 }  // namespace sidelight

@@ -10,4 +10,9 @@ static_assert(kLanes<stdx::native_simd<float>> == 16);
   shade_batch<stdx::native_simd<float>>(tables, batch, with_parts);
 }
 
+[[gnu::flatten]] void light_terms_avx512(const ShadingTables& tables, const ShadingBatch& batch,
+                                         bool with_parts, LitBatch& out) {
+  light_terms_of_batch<stdx::native_simd<float>>(tables, batch, with_parts, out);
+}
+
 }  // namespace sidelight

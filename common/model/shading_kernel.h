@@ -113,26 +113,49 @@ void view_light(const ShadingLight<float>& light, const ShadingBatch& batch,
   for (std::size_t v = 0; v < vectors; ++v) out.log[v] = log_highlight<F>(out.log[v], materials[v].shininess);
 }
 
+// The last step: the term, but for what only explanations ask for.
+template <class F>
+LightTerm<F> light_term_of(const ShadingLight<float>& light, const LightLanes<F>& lanes,
+                           const BatchMaterials<F>& materials, std::size_t v) {
+  const Vec3<F> here = light_here<F>(light, lanes.arriving[v], lanes.cosine[v]);
+  LightTerm<F> term;
+  term.diffuse = lanes.cosine[v] * (here * vec(materials[v].diffuse));
+  term.specular =
+      (materials.shiny() ? lane_exp<F>(lanes.log[v]) : F(0)) * (here * vec(materials[v].specular));
+  return term;
+}
+
+// Sums over the lights, of each vector of a batch.
+template <class F>
+using BatchColors = std::array<std::array<F, 3>, BatchMaterials<F>::kVectors>;
+
+template <class F>
+void add(std::array<F, 3>& to, const Vec3<F>& v) {
+  to = {to[0] + v.x, to[1] + v.y, to[2] + v.z};
+}
+
+template <class F>
+std::size_t vectors_of(const ShadingBatch& batch) {
+  constexpr std::size_t kCount = BatchMaterials<F>::kCount;
+  return (static_cast<std::size_t>(batch.size) + kCount - 1) / kCount;
+}
+
+template <class F>
+Vec3<F> ambient_of(const ShadingTables& tables, const BatchMaterials<F>& materials, std::size_t v) {
+  const Vec3<float>& light = tables.ambient_light;
+  return vec(materials[v].ambient) * Vec3<F>{F(light.x), F(light.y), F(light.z)};
+}
+
 // The batch, with the steps of light_term() one after the other. Whole vectors only: entries beyond batch.size are
 // computed with the others and unused.
 template <class F, bool kParts>
 void shade_batch(const ShadingTables& tables, ShadingBatch& batch) {
-  using Materials = BatchMaterials<F>;
-  using Colors = std::array<std::array<F, 3>, Materials::kVectors>;
-  const std::size_t vectors =
-      (static_cast<std::size_t>(batch.size) + Materials::kCount - 1) / Materials::kCount;
-  const Materials materials(tables, batch, vectors);
-  const auto add = [](std::array<F, 3>& to, const Vec3<F>& v) {
-    to = {to[0] + v.x, to[1] + v.y, to[2] + v.z};
-  };
-
-  const Vec3<F> ambient_light{F(tables.ambient_light.x), F(tables.ambient_light.y),
-                              F(tables.ambient_light.z)};
-  const auto ambient = [&](std::size_t v) { return vec(materials[v].ambient) * ambient_light; };
-  Colors sum, diffuse, specular;
+  const std::size_t vectors = vectors_of<F>(batch);
+  const BatchMaterials<F> materials(tables, batch, vectors);
+  BatchColors<F> sum, diffuse, specular;
   for (std::size_t v = 0; v < vectors; ++v) {
-    const Vec3<F> start = ambient(v);
-    sum[v] = {start.x, start.y, start.z};
+    const Vec3<F> ambient = ambient_of(tables, materials, v);
+    sum[v] = {ambient.x, ambient.y, ambient.z};
     if constexpr (kParts) diffuse[v] = specular[v] = {F(0), F(0), F(0)};
   }
 
@@ -140,11 +163,7 @@ void shade_batch(const ShadingTables& tables, ShadingBatch& batch) {
   for (const ShadingLight<float>& light : tables.lights) {
     view_light(light, batch, materials, vectors, lanes);
     for (std::size_t v = 0; v < vectors; ++v) {
-      const Vec3<F> here = light_here<F>(light, lanes.arriving[v], lanes.cosine[v]);
-      LightTerm<F> term;
-      term.diffuse = lanes.cosine[v] * (here * vec(materials[v].diffuse));
-      term.specular =
-          (materials.shiny() ? lane_exp<F>(lanes.log[v]) : F(0)) * (here * vec(materials[v].specular));
+      const LightTerm<F> term = light_term_of(light, lanes, materials, v);
       add(sum[v], term.total());
       if constexpr (kParts) {
         add(diffuse[v], term.diffuse);
@@ -153,11 +172,11 @@ void shade_batch(const ShadingTables& tables, ShadingBatch& batch) {
     }
   }
   for (std::size_t v = 0; v < vectors; ++v) {
-    const std::size_t i = v * Materials::kCount;
+    const std::size_t i = v * BatchMaterials<F>::kCount;
     const Vec3<F> local = vec(materials[v].local);  // c1
     store_rgb(local * vec(sum[v]), batch.unshadowed, i);
     if constexpr (kParts) {
-      store_rgb(local * ambient(v), batch.ambient_layer, i);
+      store_rgb(local * ambient_of(tables, materials, v), batch.ambient_layer, i);
       store_rgb(local * vec(diffuse[v]), batch.diffuse_layer, i);
       store_rgb(local * vec(specular[v]), batch.specular_layer, i);
     }
@@ -169,7 +188,48 @@ void shade_batch(const ShadingTables& tables, ShadingBatch& batch, bool with_par
   with_parts ? shade_batch<F, true>(tables, batch) : shade_batch<F, false>(tables, batch);
 }
 
+// Light by light: what each adds, and whether a shadow ray has to ask whether it does.
+template <class F>
+void light_terms_of_batch(const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
+                          LitBatch& out) {
+  constexpr std::size_t kCount = BatchMaterials<F>::kCount;
+  const std::size_t vectors = vectors_of<F>(batch);
+  const BatchMaterials<F> materials(tables, batch, vectors);
+  BatchColors<F> diffuse, specular;
+  for (std::size_t v = 0; v < vectors; ++v) {
+    store_rgb(ambient_of(tables, materials, v), out.ambient, v * kCount);
+    diffuse[v] = specular[v] = {F(0), F(0), F(0)};
+  }
+
+  LightLanes<F> lanes;
+  for (std::size_t l = 0; l < tables.lights.size(); ++l) {
+    view_light(tables.lights[l], batch, materials, vectors, lanes);
+    for (std::size_t v = 0; v < vectors; ++v) {
+      const std::size_t i = v * kCount;
+      const LightTerm<F> term = light_term_of(tables.lights[l], lanes, materials, v);
+      const Vec3<F> total = term.total();
+      const Mask<F> dark = total.x == F(0) && total.y == F(0) && total.z == F(0);
+      // Not dark, so it is lit.
+      const Mask<F> self_shadowed = dot(load_rgb<F>(batch.facing, i), vec(lanes.to_light[v])) <= F(0);
+      const F state = select<F>(self_shadowed, F(LightTerms::kSelfShadowed), F(LightTerms::kAsk));
+      store_rgb(total, out.light[l].total, i);
+      store(select<F>(dark, F(LightTerms::kDark), state), &out.light[l].state[i]);
+      add(diffuse[v], term.diffuse);
+      add(specular[v], term.specular);
+    }
+  }
+  for (std::size_t v = 0; with_parts && v < vectors; ++v) {
+    store_rgb(vec(diffuse[v]), out.diffuse, v * kCount);
+    store_rgb(vec(specular[v]), out.specular, v * kCount);
+  }
+}
+
 // One for each instruction set.
+void light_terms_scalar(const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
+                        LitBatch& out);
+void light_terms_avx2(const ShadingTables& tables, const ShadingBatch& batch, bool with_parts, LitBatch& out);
+void light_terms_avx512(const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
+                        LitBatch& out);
 void shade_scalar(const ShadingTables& tables, ShadingBatch& batch, bool with_parts);
 void shade_avx2(const ShadingTables& tables, ShadingBatch& batch, bool with_parts);
 void shade_avx512(const ShadingTables& tables, ShadingBatch& batch, bool with_parts);

@@ -8,4 +8,9 @@ void shade_scalar(const ShadingTables& tables, ShadingBatch& batch, bool with_pa
   shade_batch<float>(tables, batch, with_parts);
 }
 
+void light_terms_scalar(const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
+                        LitBatch& out) {
+  light_terms_of_batch<float>(tables, batch, with_parts, out);
+}
+
 }  // namespace sidelight

@@ -19,6 +19,10 @@ void put(SurfaceBatch::Vectors& to, std::size_t i, const glm::dvec3& v) {
   to[2][i] = v.z;
 }
 
+glm::dvec3 get(const SurfaceBatch::Vectors& from, std::size_t i) {
+  return {from[0][i], from[1][i], from[2][i]};
+}
+
 // What the kernel reads of one primitive, into entry i; its material.
 std::uint32_t fetch(const Scene& scene, SurfaceBatch& batch, Group& group, std::size_t i) {
   const std::uint32_t index = primitive_ref(scene, batch.primitive[i]).index;
@@ -73,6 +77,11 @@ void pad(SurfaceBatch& batch) {
     batch.row[i] = batch.row[size - 1];
     batch.t[i] = batch.t[size - 1];
     batch.primitive[i] = batch.primitive[size - 1];
+    if (!batch.own_rays) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      batch.origin[axis][i] = batch.origin[axis][size - 1];
+      batch.direction[axis][i] = batch.direction[axis][size - 1];
+    }
   }
 }
 
@@ -94,16 +103,27 @@ void fetch_group(const Scene& scene, const ShadingTables& tables, SurfaceBatch& 
   }
 }
 
+Ray ray_of(const Camera& camera, const SurfaceBatch& batch, std::size_t i) {
+  if (!batch.own_rays)
+    return {camera.eye, (batch.column[i] * camera.right + batch.row[i] * camera.up) + camera.axis_part()};
+  return {get(batch.origin, i), get(batch.direction, i)};
+}
+
 // What the lanes leave undecided.
 void ask_again(const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
                std::size_t i, ShadingBatch& out, SignCounts& counts) {
-  const Ray ray{camera.eye, (batch.column[i] * camera.right + batch.row[i] * camera.up) + camera.axis_part()};
+  const Ray ray = ray_of(camera, batch, i);
   Hit hit{batch.t[i], batch.primitive[i]};
-  SignCounts not_again;  // the z-buffer has counted this test
+  SignCounts not_again;  // who found the primitive has counted this test
   if (!batch.has_t) hit = intersect(scene, hit.primitive, ray, kRayStart, not_again);
   batch.t[i] = hit.t;
   const Surface surface = surface_at(scene, ray, hit, counts);
   out.set(i, shading_point(tables, surface, ray), surface.material);
+  if (!batch.want_leaving) return;
+  put(batch.point, i, surface.point);
+  put(batch.facing, i, surface.facing);
+  put(batch.normal, i, surface.normal);
+  batch.clearance[i] = surface.clearance;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The surfaces at many hits of eye rays at once, in structure-of-arrays form: what surface_at() and shading_point() say of
-// one hit, bit for bit, computed in lanes. Whoever collects hits of one kind of primitive in a SurfaceBatch gets a
+// The surfaces at many hits at once, of eye rays or of any rays, in structure-of-arrays form: what surface_at() and
+// shading_point() say of one hit, bit for bit, computed in lanes. Whoever collects hits of one kind of primitive in a SurfaceBatch gets a
 // ShadingBatch, ready to be shaded. surface_at() is the readable twin, and what decides wherever the lanes' own, coarser
 // certificates do not (a triangle seen nearly edge-on).
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace sidelight {
 
-// Samples of the lattice whose eye rays meet primitives of one kind.
+// Rays that meet primitives of one kind: eye rays of the lattice, or each with an origin and a direction of its own.
 struct SurfaceBatch {
   static constexpr int kCapacity = ShadingBatch::kCapacity, kGroup = ShadingBatch::kGroup;
   template <class T>
@@ -32,6 +32,8 @@ struct SurfaceBatch {
   alignas(64) Channel<std::uint32_t> primitive, sample;  // `sample` is the caller's own number
   bool has_t = false;                                    // t is given
   bool want_t = false;
+  bool own_rays = false;  // origin and direction are given, in place of column and row; has_t goes with it
+  alignas(64) Vectors origin, direction;
 
   int room() const { return kCapacity - size; }
   // `count` <= room() neighbours in a row, from the one with this column factor and number.
@@ -56,12 +58,16 @@ struct SurfaceBatch {
     bool shiny = false;   // V is asked for
   };
   std::array<Group, static_cast<std::size_t>(kCapacity / kGroup)> group;
-  // Results: not 0 where the lanes cannot be sure; whether that is so anywhere.
+  // Results, if asked for: Place::point, facing and clearance, and Surface::normal. ShadingBatch::facing goes with them.
+  bool want_leaving = false;
+  alignas(64) Vectors point, facing, normal;
+  alignas(64) Channel<double> clearance;
+  // Not 0 where the lanes cannot be sure; and whether that is so anywhere.
   alignas(64) Channel<double> doubtful;
   bool any_doubtful = false;
 };
 
-// Fills entries [0, size) of `out`, but facing, and of batch.t. The same bytes for every isa.
+// Fills entries [0, size) of `out`, and of what batch asks for. The same bytes for every isa.
 void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables,
                  SurfaceBatch& batch, ShadingBatch& out, SignCounts& counts);
 

@@ -111,6 +111,10 @@ Roots sphere_roots(const Sphere& sphere, const Ray& ray);
 // contract, meets nothing. One of counts.tests.
 Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after, SignCounts& counts);
 
+// What intersect() finds of a triangle with these corners, for a ray that is known to meet it: only the depth is open.
+Hit met_triangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2, std::uint32_t primitive,
+                 const Ray& ray, const Hit& after);
+
 // The nearest hit of all primitives, by looking at every one of them.
 Hit nearest_of_all(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts);
 

@@ -120,7 +120,8 @@ inline std::string differences(const Frame& part, const Frame& whole) {
 
 // With every instruction set that this machine has, which must give the same bytes: so each hard case that is drawn holds
 // for all of them.
-inline Frame rastered(const Scene& scene, const Camera& camera, RenderOptions options = keeping(kRasterLayers)) {
+inline Frame rastered(const Scene& scene, const Camera& camera,
+                      RenderOptions options = keeping(kRasterLayers)) {
   const auto prepared = raster::prepare(scene);
   Frame first = raster::render(*prepared, camera, options);
   const Isa given = options.isa;
@@ -132,9 +133,14 @@ inline Frame rastered(const Scene& scene, const Camera& camera, RenderOptions op
   }
   return first;
 }
-// The tracer works with doubles one by one: it has no choice of instructions.
-inline Frame traced(const Scene& scene, const Camera& camera, const RenderOptions& options = keeping(kRaytraceLayers)) {
-  return raytrace::render(*raytrace::prepare(scene), camera, options);
+// By the waves, and again by the recursion, their readable twin, which must give the same bytes.
+inline Frame traced(const Scene& scene, const Camera& camera,
+                    const RenderOptions& options = keeping(kRaytraceLayers)) {
+  const auto prepared = raytrace::prepare(scene);
+  Frame frame = raytrace::render(*prepared, camera, options);
+  const std::string twin = differences(raytrace::render_recursively(*prepared, camera, options), frame);
+  REQUIRE_MESSAGE(twin.empty(), "the recursion gives another ", twin);
+  return frame;
 }
 
 // For messages: nine digits tell any two floats apart.

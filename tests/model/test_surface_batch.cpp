@@ -59,6 +59,16 @@ bool same(const ShadingBatch::Rgb& batch, std::size_t i, const Vec3<float>& v) {
   return same(batch[0][i], v.x) && same(batch[1][i], v.y) && same(batch[2][i], v.z);
 }
 
+bool same(const SurfaceBatch::Vectors& batch, std::size_t i, const glm::dvec3& v) {
+  const glm::dvec3 of_batch{batch[0][i], batch[1][i], batch[2][i]};
+  return std::memcmp(&of_batch, &v, sizeof v) == 0;
+}
+
+// How rays come and what is asked for.
+struct Mode {
+  bool has_t = false, own_rays = false, want_leaving = false;
+};
+
 struct Outcome {
   std::uint64_t entries = 0, unlike = 0, exact = 0;
 };
@@ -78,6 +88,10 @@ void check(Isa isa, const Scene& scene, const Camera& camera, const ShadingTable
     outcome.unlike +=
         !(same(out.high, i, point.high) && same(out.low, i, point.low) && same(out.normal, i, point.normal) &&
           out.material[i] == surface.material && (!shiny || same(out.to_viewer, i, point.to_viewer)) &&
+          (!batch.want_leaving ||
+           (same(batch.point, i, surface.point) && same(batch.facing, i, surface.facing) &&
+            same(batch.normal, i, surface.normal) && same(out.facing, i, point.facing) &&
+            std::memcmp(&batch.clearance[i], &surface.clearance, sizeof(double)) == 0)) &&
           (!batch.want_t || std::memcmp(&batch.t[i], &hits[i].t, sizeof(double)) == 0));
   }
   outcome.entries += hits.size();
@@ -87,7 +101,7 @@ void check(Isa isa, const Scene& scene, const Camera& camera, const ShadingTable
 }
 
 // The samples of pictures from several eyes, every primitive that the ray meets, in batches of one kind.
-Outcome compared(Isa isa, bool has_t) {
+Outcome compared(Isa isa, const Mode& mode) {
   Random random(70);
   Outcome outcome;
   for (std::uint64_t round = 0; round < 1 + tier_count("rays_per_case") / 4000; ++round) {
@@ -102,7 +116,9 @@ Outcome compared(Isa isa, bool has_t) {
     for (std::size_t kind = 0; kind < 3; ++kind) {
       SurfaceBatch batch;
       batch.kind = static_cast<ObjectKind>(kind);
-      batch.has_t = has_t;
+      batch.has_t = mode.has_t;
+      batch.own_rays = mode.own_rays;
+      batch.want_leaving = mode.want_leaving;
       batch.want_t = true;
       std::vector<Ray> rays;
       std::vector<Hit> hits;
@@ -114,7 +130,12 @@ Outcome compared(Isa isa, bool has_t) {
             const Ray ray{camera.eye, camera.direction(X, Y)};
             const Hit hit = intersect(scene, primitive, ray, kRayStart, counts);
             if (!hit.found()) continue;
-            batch.t[static_cast<std::size_t>(batch.size)] = hit.t;
+            const auto i = static_cast<std::size_t>(batch.size);
+            batch.t[i] = hit.t;
+            for (int axis = 0; axis < 3 && mode.own_rays; ++axis) {
+              batch.origin[static_cast<std::size_t>(axis)][i] = ray.origin[axis];
+              batch.direction[static_cast<std::size_t>(axis)][i] = ray.direction[axis];
+            }
             batch.add(camera.column_factor(X), camera.row_factor(Y), &primitive, 0, 1);
             rays.push_back(ray);
             hits.push_back(hit);
@@ -133,8 +154,9 @@ Outcome compared(Isa isa, bool has_t) {
 
 void check_isa(Isa isa) {
   if (!machine_has(isa)) return skip_test(std::string("no ") + std::string(isa_name(isa)));
-  for (const bool has_t : {false, true}) {
-    const Outcome outcome = compared(isa, has_t);
+  for (const Mode& mode :
+       {Mode{}, Mode{true, false, false}, Mode{false, false, true}, Mode{true, true, true}}) {
+    const Outcome outcome = compared(isa, mode);
     CHECK(outcome.entries > 1000);
     CHECK(outcome.unlike == 0);
   }

@@ -25,16 +25,31 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 Bvh bvh_over(const std::vector<Box>& boxes) {
   std::vector<std::uint32_t> items(boxes.size());
   std::iota(items.begin(), items.end(), 0u);
-  return raytrace::build_bvh(boxes, items);
+  return raytrace::build_bvh(items, [&](std::uint32_t i) { return boxes[i]; });
+}
+
+std::vector<Isa> isas() {
+  std::vector<Isa> all;
+  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+    if (machine_has(isa)) all.push_back(isa);
+  return all;
+}
+
+// In the order of the traversal.
+std::vector<std::uint32_t> visited(const Bvh& bvh, const Ray& ray, Isa isa = best_isa()) {
+  std::vector<std::uint32_t> items;
+  const auto visit = [&](std::uint32_t item, double limit) {
+    items.push_back(item);
+    return limit;
+  };
+  raytrace::traverse(bvh, ray, kForever, visit, isa);
+  return items;
 }
 
 std::set<std::uint32_t> reached(const Bvh& bvh, const Ray& ray) {
-  std::set<std::uint32_t> items;
-  raytrace::traverse(bvh, ray, kForever, [&](std::uint32_t item, double limit) {
-    items.insert(item);
-    return limit;
-  });
-  return items;
+  const std::vector<std::uint32_t> items = visited(bvh, ray);
+  for (const Isa isa : isas()) CHECK(visited(bvh, ray, isa) == items);
+  return {items.begin(), items.end()};
 }
 
 // Whether the ray meets the closed box at some t > 0, with quotients in 113 bits: monotone, so no box is left
@@ -61,10 +76,14 @@ std::uint64_t boxes_lost(const Bvh& bvh, const std::vector<Box>& boxes, const Ra
   return lost;
 }
 
-// Depth of the deepest leaf; the root's is 0.
+// Nodes above the deepest leaf.
 int depth_of(const Bvh& bvh, std::uint32_t node = 0) {
   const raytrace::BvhNode& n = bvh.nodes[node];
-  return n.count > 0 ? 0 : 1 + std::max(depth_of(bvh, n.first), depth_of(bvh, n.first + 1));
+  int deepest = 0;
+  for (std::size_t slot = 0; slot < raytrace::BvhNode::kWidth; ++slot)
+    if (n.count[slot] == 0 && n.face[0][slot] <= n.face[3][slot])
+      deepest = std::max(deepest, depth_of(bvh, n.first[slot]));
+  return 1 + deepest;
 }
 
 // Builds it, and shoots through all of it.
@@ -141,19 +160,19 @@ TEST_CASE("a traversal leaves room for the rounding of a hit and of its depth") 
   for (const double x : {1 - 0x1p-49, 1.5, 2 + 0x1p-48})  // 16 u of 1, 32 u of 2
     CHECK(reached(bvh, {{x, 1.5, 0}, {0, 0, 1}}).size() == 20);
   CHECK(reached(bvh, {{2.001, 1.5, 0}, {0, 0, 1}}).empty());
-  int visited = 0;
+  int visits = 0;
   raytrace::traverse(bvh, {{1.5, 1.5, 0}, {0, 0, 1}}, kForever, [&](std::uint32_t, double) {
-    ++visited;
+    ++visits;
     return 1 - 0x1p-18;  // a hit in the box, which begins at t = 1
   });
-  CHECK(visited == 20);
+  CHECK(visits == 20);
 }
 
 TEST_CASE("a traversal ends where a leaf says so, and skips what lies beyond the limit") {
   std::vector<Box> boxes;
   for (int i = 1; i <= 64; ++i) boxes.push_back(cube_at({0, 0, 4.0 * i}, 1));
   const Bvh bvh = bvh_over(boxes);
-  const auto visited = [&](double limit, double answer) {
+  const auto visited_by = [&](double limit, double answer) {
     std::vector<std::uint32_t> items;
     raytrace::traverse(bvh, {{0, 0, 0}, {0, 0, 1}}, limit, [&](std::uint32_t item, double) {
       items.push_back(item);
@@ -161,11 +180,11 @@ TEST_CASE("a traversal ends where a leaf says so, and skips what lies beyond the
     });
     return items;
   };
-  CHECK(visited(kForever, kForever).size() == 64);
-  CHECK(visited(2, 2).empty());  // the first box begins at 3
-  CHECK(visited(kForever, -1).size() == 1);
-  CHECK(visited(kForever, -1).front() < 8);   // nearer children first: an item of the nearest leaf
-  CHECK(visited(kForever, 10).size() <= 16);  // and little beyond it
+  CHECK(visited_by(kForever, kForever).size() == 64);
+  CHECK(visited_by(2, 2).empty());  // the first box begins at 3
+  CHECK(visited_by(kForever, -1).size() == 1);
+  CHECK(visited_by(kForever, -1).front() < 8);   // nearer children first: an item of the nearest leaf
+  CHECK(visited_by(kForever, 10).size() <= 16);  // and little beyond it
 }
 
 TEST_CASE("boxes of one centre, on a line, at a point or exponentially spaced stay within the stack") {

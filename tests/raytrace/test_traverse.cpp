@@ -83,6 +83,7 @@ TEST_CASE("the sign of a zero in a direction changes no hit") {
 TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and blocker agrees with it") {
   Random random(5);
   std::uint64_t differing = 0, wrong_blocker = 0, ties = 0;
+  constexpr auto exact = raytrace::Precision::exact;
   const std::uint64_t scenes = 200, rays = 1 + tier_count("rays_per_case") / (10 * scenes);
   for (std::uint64_t i = 0; i < scenes; ++i) {
     const Scene scene = scene_on_grid(random, i % 10 == 0 ? 2000 : 200);
@@ -92,8 +93,11 @@ TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and 
       const Ray ray = ray_on_grid(scene, random);
       const Hit expected = nearest_of_all(scene, ray, kRayStart, counts);
       const Hit second = nearest_of_all(scene, ray, expected, counts);
-      differing += nearest(prepared, ray, kRayStart, counts) != expected;
-      differing += expected.found() && nearest(prepared, ray, expected, counts) != second;
+      for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+        if (!machine_has(isa)) continue;
+        differing += nearest(prepared, ray, kRayStart, counts, exact, isa) != expected;
+        differing += expected.found() && nearest(prepared, ray, expected, counts, exact, isa) != second;
+      }
       ties += expected.found() && expected.t == second.t;
       const Hit in_the_sun = blocker(prepared, ray, nullptr, counts);
       wrong_blocker += in_the_sun.found() != expected.found() || !is_hit_of(scene, ray, in_the_sun);

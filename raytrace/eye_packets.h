@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What the eye sees: the rays of the samples' lattice as packets of 16 x 16 (packets.h). The primitives are those of
+// nearest(), every one.
+#pragma once
+
+#include <vector>
+
+#include "common/scene/camera.h"
+#include "raytrace/packets.h"
+
+namespace sidelight::raytrace {
+
+// Greatest coordinate of all that can be met, and of `origin`.
+double reach_of(const Prepared& prepared, const glm::dvec3& origin);
+
+class EyePackets {
+ public:
+  EyePackets(const Prepared& prepared, const Camera& camera, Isa isa);
+
+  // Of the samples [X0, X0 + columns) x [Y0, Y0 + rows), row by row: the primitive that nearest() finds, its depth left
+  // out; and whether nothing else stands near to where the ray meets it (place.h, stands_near()), for certain, as long as
+  // that is within 16 reach().
+  void trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& hits, std::vector<std::uint8_t>& alone,
+             SignCounts& counts);
+  double reach() const { return packet_.reach; }
+  double ray_length() const { return packet_.length; }  // at least |d| of any ray
+
+ private:
+  struct Sample {
+    int X = 0, Y = 0;
+    std::size_t index = 0;
+  };
+
+  void load(int X0, int Y0, int X1, int Y1, std::size_t first, std::size_t stride);
+  static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
+
+  const Prepared& prepared_;
+  const Camera& camera_;
+  Isa isa_;
+  RayPacket packet_;
+  RayPacket::PerRay<Sample> sample_;
+};
+
+}  // namespace sidelight::raytrace

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// Eight lanes of floats, four of doubles (compiled with -mavx2).
+#include "raytrace/ray_kernel.h"
+
+namespace sidelight::raytrace {
+
+const Kernels& kernels_avx2() { return kKernels<stdx::native_simd<float>, stdx::native_simd<double>>; }
+
+}  // namespace sidelight::raytrace

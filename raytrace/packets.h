@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Packets: up to 256 rays with a common origin, whose directions are d = W + u U + v V. Relative to the origin a
+// triangle is three affine edge functions of (u, v) and 1/t is a fourth (common/model/ray_sheet.h), so that 16 rays are
+// tested in a few operations, in float. Eye rays are such packets, and so are shadow rays seen from a point light.
+//
+// Every verdict is certified by a bound; where a bound does not decide, the caller's `ask` decides exactly, by the
+// functions of visibility.h on the ray itself. So what comes out does not depend on lanes, order or packing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "raytrace/prepared.h"
+
+namespace sidelight::raytrace {
+
+struct RayPacket {
+  static constexpr int kGroup = 16, kGroups = 16, kCapacity = kGroup * kGroups;
+  template <class T>
+  using PerRay = std::array<T, static_cast<std::size_t>(kCapacity)>;
+  template <class T>
+  using PerGroup = std::array<T, static_cast<std::size_t>(kGroups)>;
+
+  // The rays. Of shadow rays the origin is the light, and they go from there to the surfaces.
+  int size = 0;
+  glm::dvec3 origin{0}, W{0}, U{0}, V{0};
+  double length = 0;  // at least |x| + |y| + |z| of any d, and of every partial sum on the way to it
+  double distance =
+      0;  // at least the distance from the origin of any surface that asks for its shadow; else 0
+  double place_error = 0;  // u and v may be off by this
+  double near_error =
+      0;  // beside its own rounding, what is nearer to a ray than this times its distance is doubtful
+  double reach = 0;  // greatest coordinate of all that can be met, and of the origin
+  alignas(64) PerRay<float> u, v;
+  alignas(64) PerRay<float> w;  // what counts is nearer than 1/w; 0: anything. Then of what is kept
+  alignas(64)
+      PerRay<std::int32_t> primitive;  // what is kept: the nearest, or of shadow rays some blocker; -1: none
+  alignas(64) PerRay<std::int32_t> own;  // of shadow rays: the flat surface that asks, or -1
+  bool any_hit = false;                  // shadow rays: the first one will do
+  bool all_cast = true;                  // whether every material casts shadows
+  // Work left, at the cost of a node as 1 and a leaf as 8: where it falls below 0 the packet is left as it is by then.
+  int budget = std::numeric_limits<int>::max();
+  // Whether anything at all was doubtful. If not, nothing but what is kept comes near to where the ray ends.
+  PerRay<bool> asked{};
+
+  // Derived by finish().
+  int groups = 0;
+  float extent_u = 0, extent_v = 0;
+  alignas(64) PerGroup<float> group_u, group_v, half_u, half_v;
+  alignas(64) PerGroup<float> least_w;  // of its rays
+  float least = 0;
+  // Where there are spheres: d . d, and the least of each group.
+  alignas(64) PerRay<double> square;
+  alignas(64) PerGroup<float> least_square;
+
+  // Decides about a ray and a primitive, and changes w and primitive accordingly.
+  void (*ask)(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) = nullptr;
+  void* context = nullptr;
+};
+
+// Of w: two that differ by more than this factor are surely in the order of the depths of visibility.h, each being
+// within 2^-16 of 1/t: 2^-17 by the float bound, 2^-18 by visibility.h, and all else.
+inline constexpr float kSurely = 1 + 0x1p-14f;
+
+// Fills what is derived. Entries beyond `size`, up to whole groups, become rays that ask for nothing.
+void finish(RayPacket& packet);
+
+// Meets everything in the scene that casts shadows (any_hit), or simply everything, as far as the budget goes.
+void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, SignCounts& counts);
+// One for each instruction set.
+void trace_packet_scalar(const Prepared& prepared, RayPacket& packet, SignCounts& counts);
+void trace_packet_avx2(const Prepared& prepared, RayPacket& packet, SignCounts& counts);
+void trace_packet_avx512(const Prepared& prepared, RayPacket& packet, SignCounts& counts);
+
+}  // namespace sidelight::raytrace

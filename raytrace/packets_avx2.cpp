@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// packet_kernel.h for eight lanes (compiled with -mavx2 and -mfma).
+#include "raytrace/packet_kernel.h"
+
+namespace sidelight::raytrace {
+
+[[gnu::flatten]] void trace_packet_avx2(const Prepared& prepared, RayPacket& packet, SignCounts& counts) {
+  meet_all<stdx::native_simd<float>, stdx::native_simd<float>, stdx::native_simd<double>>(prepared, packet,
+                                                                                          counts);
+}
+
+}  // namespace sidelight::raytrace

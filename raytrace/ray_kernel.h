@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// The questions about one ray, for lane types F of floats (boxes) and D of doubles (leaves). Included only by
+// kernels_scalar.cpp, kernels_avx2.cpp and kernels_avx512.cpp.
+#pragma once
+
+#include "raytrace/bvh_kernel.h"
+#include "raytrace/kernels.h"
+#include "raytrace/leaf_kernel.h"
+#include "raytrace/near_kernel.h"
+
+namespace sidelight::raytrace {
+
+// A primitive that a filter left, with its kRows numbers from the leaf.
+template <int kRows>
+struct Candidate {
+  std::uint32_t primitive;
+  const double* numbers;
+  std::uint32_t stride;  // from one number to the next
+  bool met;              // a triangle that the ray surely meets: only its depth is open
+
+  glm::dvec3 corner(std::uint32_t k) const {
+    const double* row = numbers + 3 * k * stride;
+    return {row[0], row[stride], row[2 * stride]};
+  }
+
+  // A triangle at right angles to an axis, in whose plane the ray starts, as rays do that leave a floor at y = 0: a miss,
+  // and one that the signs of visibility.h would find by exact arithmetic only.
+  bool starts_in_flat(const glm::dvec3& origin) const {
+    const auto all_at = [&](std::uint32_t axis, double o) {
+      return numbers[axis * stride] == o && numbers[(3 + axis) * stride] == o &&
+             numbers[(6 + axis) * stride] == o;
+    };
+    return all_at(0, origin.x) || all_at(1, origin.y) || all_at(2, origin.z);
+  }
+
+  Hit hit(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts) const {
+    if constexpr (kRows == TriangleLeaves::kRowCount) {
+      const bool missed = !met && starts_in_flat(ray.origin);
+      if (met || missed) {
+        ++counts.tests;
+        counts.filtered += 4;
+        return missed ? Hit{} : met_triangle(corner(0), corner(1), corner(2), primitive, ray, after);
+      }
+    }
+    return intersect(scene, primitive, ray, after, counts);
+  }
+};
+
+// Hands every primitive that the filter leaves to ask(candidate, limit), which returns the new limit.
+template <class F, class Filter, int kRows, class Ask>
+[[gnu::always_inline]] inline double ask_leaves(const Leaves<kRows>& leaves, const Filter& filter,
+                                                const Ray& ray, double limit, SignCounts& counts,
+                                                const Ask& ask) {
+  counts.nodes +=
+      walk<F>(leaves.bvh, ray, limit, [&](std::uint32_t first, std::uint32_t count, double current) {
+        const double* leaf = leaves.leaf(first);
+        const LeafVerdict verdict = filter(leaf, count, current);
+        const auto dropped = count - static_cast<std::uint32_t>(std::popcount(verdict.may));
+        counts.tests += dropped;  // the others are counted where they are asked
+        counts.filtered += 3 * dropped;
+        for (std::uint32_t bits = verdict.may; bits != 0 && current >= 0; bits &= bits - 1) {
+          const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
+          const bool met = (verdict.must >> i & 1) != 0;
+          current = ask(Candidate<kRows>{leaves.bvh.items[first + i], leaf + i, count, met}, current);
+        }
+        return limit = current;
+      });
+  return limit;
+}
+
+template <class F, class D>
+[[gnu::flatten]] void nearest_in_lanes(const Prepared& prepared, const Ray& ray, const Hit& after, Hit& best,
+                                       SignCounts& counts) {
+  const auto ask = [&](const auto& candidate, double) {
+    const Hit hit = candidate.hit(prepared.scene, ray, after, counts);
+    if (hit.found() && before(hit, best)) best = hit;
+    return best.t;
+  };
+  if (!prepared.triangles.bvh.nodes.empty())
+    ask_leaves<F>(prepared.triangles, TriangleFilter<D>(ray), ray, best.t, counts, ask);
+  if (!prepared.spheres.bvh.nodes.empty())
+    ask_leaves<F>(prepared.spheres, SphereFilter<D>(ray, prepared.spheres.bvh.reach), ray, best.t, counts,
+                  ask);
+}
+
+template <class F, class D>
+[[gnu::flatten]] Hit blocker_in_lanes(const Prepared& prepared, const Ray& ray, const glm::dvec3* light,
+                                      const Hit& start, SignCounts& counts) {
+  Hit found;
+  const auto ask = [&](const auto& candidate, double limit) {
+    if (!prepared.all_cast_shadows && !casts_shadow(prepared.scene, candidate.primitive)) return limit;
+    const Hit hit = candidate.hit(prepared.scene, ray, start, counts);
+    if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return limit;
+    found = hit;
+    return -1.0;
+  };
+  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
+  if (!prepared.triangles.bvh.nodes.empty())
+    ask_leaves<F>(prepared.triangles, TriangleFilter<D>(ray), ray, limit, counts, ask);
+  if (!found.found() && !prepared.spheres.bvh.nodes.empty())
+    ask_leaves<F>(prepared.spheres, SphereFilter<D>(ray, prepared.spheres.bvh.reach), ray, limit, counts,
+                  ask);
+  return found;
+}
+
+template <class F, class D>
+[[gnu::flatten]] std::uint64_t visit_leaves_in_lanes(const Bvh& bvh, const Ray& ray, double limit,
+                                                     const LeafVisitor& visitor) {
+  return walk<F>(bvh, ray, limit, [&](std::uint32_t first, std::uint32_t count, double current) {
+    return visitor.visit(visitor.context, first, count, current);
+  });
+}
+
+template <class F, class D, int kRows>
+[[gnu::always_inline]] inline void ask_leaves_near(const Leaves<kRows>& leaves,
+                                                   const NearQuestion& question) {
+  walk_near<F>(leaves.bvh, question.point, question.distance, [&](std::uint32_t first, std::uint32_t count) {
+    const std::uint32_t* items = leaves.bvh.items.data() + first;
+    std::uint32_t others = 0, bits = 0;
+    for (std::uint32_t i = 0; i < count; ++i) others |= std::uint32_t{items[i] != question.except} << i;
+    for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>)
+      bits |= near_bits<D>(leaves, leaves.leaf(first) + lane, count, others >> lane, question.point,
+                           question.distance)
+              << lane;
+    for (bits &= others; bits != 0; bits &= bits - 1)
+      question.visit(question.context, items[static_cast<std::uint32_t>(std::countr_zero(bits))]);
+  });
+}
+
+template <class F, class D>
+[[gnu::flatten]] void near_triangles_in_lanes(const TriangleLeaves& leaves, const NearQuestion& question) {
+  ask_leaves_near<F, D>(leaves, question);
+}
+
+template <class F, class D>
+[[gnu::flatten]] void near_spheres_in_lanes(const SphereLeaves& leaves, const NearQuestion& question) {
+  ask_leaves_near<F, D>(leaves, question);
+}
+
+template <class F, class D>
+inline constexpr Kernels kKernels{nearest_in_lanes<F, D>, blocker_in_lanes<F, D>, visit_leaves_in_lanes<F, D>,
+                                  near_triangles_in_lanes<F, D>, near_spheres_in_lanes<F, D>};
+
+}  // namespace sidelight::raytrace

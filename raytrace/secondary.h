@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The rays that leave a surface: towards its mirror image, through it, and towards the lights. What the recursion
+// (whitted.h) sends one by one and the waves (wave.h) level by level is said here, once.
+#pragma once
+
+#include <algorithm>
+
+#include "raytrace/path.h"
+#include "raytrace/prepared.h"
+
+namespace sidelight::raytrace {
+
+inline double largest(const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); }
+
+inline bool is_mirrored(RayKind kind) {
+  return kind == RayKind::mirrored || kind == RayKind::internally_reflected;
+}
+
+// A ray and the c2 or c3 by which what it brings back is counted; 0: there is no such ray.
+struct Departure {
+  Path path;
+  glm::dvec3 c{0};
+};
+struct Departures {
+  Departure mirrored, refracted;
+};
+
+// c2 and c3 of a material, as the scene's switches leave them.
+inline glm::dvec3 reflect_of(const Scene& scene, const Material& material) {
+  return scene.trace.reflection ? material.reflect : glm::dvec3(0);
+}
+inline glm::dvec3 refract_of(const Scene& scene, const Material& material) {
+  return scene.trace.refraction ? material.refract : glm::dvec3(0);
+}
+
+// The secondary rays that `path` gives rise to where it met `hit`, at `surface`; they start at `from`
+// (leaving_point). Of the surface object, material, normal, facing, entering and together are read. Depth and weight are
+// still those of `path`.
+Departures departures(const Prepared& prepared, const Path& path, const Hit& hit, const Surface& surface,
+                      const glm::dvec3& from, SignCounts& counts);
+
+// Takes c into the ray's weight, and the ray a step deeper if it is sent; false where it is too deep or weighs too
+// little.
+bool send(const Scene& scene, const glm::dvec3& c, Path& path);
+
+// w(r) = 1 / max(1, q0 + q1 r + q2 r²); a ray that meets nothing has r -> infinity.
+double distance_weight(const Attenuation& q, const Path& path, const Hit& hit);
+
+// From `origin` to the light: up to t = 1 of a point light.
+inline Ray ray_to_light(const glm::dvec3& origin, const Light& light) {
+  return make_ray(origin, light.directional ? -light.direction : light.position - origin);
+}
+
+}  // namespace sidelight::raytrace

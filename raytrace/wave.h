@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// The recursion (whitted.h) turned into waves: all rays of one depth of a tile together, level by level. What a step does
+// is then done to many rays in a row, in lanes: nearest hits, surfaces, light, shadow rays by light. The mirrored and
+// refracted rays of a level's hits are the next level; colours are summed up on the way back, in the recursion's order,
+// so that every bit is the same. Whitted stays as the readable twin (tests/raytrace/test_wave.cpp), and for what waves do
+// not do: explanations, light in double, faults on purpose, the cost of each pixel.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/model/surface_batch.h"
+#include "common/picture/frame.h"
+#include "raytrace/eye_packets.h"
+#include "raytrace/secondary.h"
+#include "raytrace/shadow_packets.h"
+
+namespace sidelight::raytrace {
+
+// Hits of one kind of primitive whose surfaces and light were found together, and the rays that leave there.
+struct HitBatch {
+  ObjectKind kind = ObjectKind::mesh;
+  int size = 0;
+  SurfaceBatch::Channel<std::uint32_t> ray, material;  // the ray's number in its level
+  SurfaceBatch::Vectors from, normal, facing;          // leaving_point, N and Nv, where rays leave
+  SurfaceBatch::Channel<double> clearance;             // Place::clearance, likewise
+  LitBatch lit;
+  ShadingBatch::Rgb light{},
+      missing{};  // sums of T_i, c1 left out: of lights that are seen, and that are not
+
+  glm::dvec3 from_of(std::size_t i) const { return {from[0][i], from[1][i], from[2][i]}; }
+};
+
+// A secondary ray: where it comes from, and how what it brings back is counted there.
+struct WaveRay {
+  Path path;
+  glm::dvec3 c{0};
+  std::uint32_t parent = 0;
+};
+
+// All rays of one depth. Numbers are those of the rays; of the eye's level, of the tile's samples row by row.
+struct Level {
+  std::vector<WaveRay> rays;  // none at the eye's level: those are the camera's
+  std::vector<Hit> hits;
+  std::vector<std::uint8_t> alone;  // where known: nothing else stands near the hit (EyePackets)
+  std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
+  std::vector<double> cut_weight;                     // likewise
+};
+
+// One for each thread, for tile after tile of one picture.
+class Wave {
+ public:
+  Wave(const Prepared& prepared, const Camera& camera, const Media& eye_media, const RenderOptions& options);
+
+  // Traces the samples of these pixels.
+  void trace(const Rect& pixels, RenderStats& stats);
+  // Then: their means into the frame; the sums of their samples' cut weights into `cut`, where it is not empty.
+  void write(Frame& frame, std::vector<double>& cut) const;
+
+ private:
+  using Colors = std::vector<glm::vec3>;
+
+  std::size_t columns() const { return static_cast<std::size_t>(camera_.n * pixels_.width()); }
+  std::size_t samples() const { return columns() * static_cast<std::size_t>(camera_.n * pixels_.height()); }
+  Path path_of(const Level& level, std::size_t ray) const;
+  Ray ray_of(const Level& level, std::size_t ray) const;
+
+  void begin(const Rect& pixels);
+  void find_hits(Level& level, bool eye, RenderStats& stats);
+  Hit first_shaded(WaveRay& ray, RenderStats& stats) const;
+  void find_surfaces(Level& level, bool eye, RenderStats& stats);
+  void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
+  void find_leaving_points(const Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
+                           RenderStats& stats) const;
+  void add_lights(const Level& level, RenderStats& stats);
+  void find_shadows(const Level& level, std::size_t light, RenderStats& stats);
+  ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
+  void add_light(std::size_t light);
+  void sum_up(Level& level, bool eye);
+  Surface surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray) const;
+  void send_secondary(Level& level, Level& next, RenderStats& stats) const;
+  void bring_back(const Level& level, Level& parent) const;
+  HitBatch& next_batch();
+
+  template <class Write>
+  void for_each_pixel(const Frame& frame, const Write& write) const;
+  void write_means(const Colors& samples, const Frame& frame, Colors& pixels) const;
+
+  const Prepared& prepared_;
+  const Scene& scene_;
+  const Camera& camera_;
+  const Media& eye_media_;
+  Isa isa_;
+  LayerMask layers_;
+  bool secondary_, shadows_;  // whether there are such rays
+  bool want_parts_, want_shadow_, want_normal_, want_t_;
+  Rect pixels_;
+  EyePackets eye_packets_;
+  double farthest_alone_ = 0;  // depth up to which Level::alone holds
+  ShadowPackets shadow_packets_;
+  std::vector<ShadowQuery> queries_;
+  std::vector<std::uint8_t> dark_;
+  std::vector<Level> levels_;
+  std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind
+  ShadingBatch shading_;
+  std::vector<HitBatch> batches_;  // of the level that is worked at, the first used_ of them
+  std::size_t used_ = 0;
+  // Of the eye's level, where they are wanted.
+  std::array<Colors, 3> parts_;  // ambient, diffuse, specular
+  Colors shadow_, normal_;
+  std::vector<double> t_;
+};
+
+}  // namespace sidelight::raytrace
