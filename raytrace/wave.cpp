@@ -2,6 +2,7 @@
 #include "raytrace/wave.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace sidelight::raytrace {
 namespace {
@@ -56,24 +57,52 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
 void Wave::trace(const Rect& pixels, RenderStats& stats) {
   begin(pixels);
   stats.rays.primary += samples();
+  trace_level(0, stats);
   std::size_t depth = 0;
-  for (bool any = true; any; ++depth) {
-    if (levels_.size() < depth + 2) levels_.resize(depth + 2);
-    Level &level = levels_[depth], &next = levels_[depth + 1];
-    const bool eye = depth == 0;
-    find_hits(level, eye, stats);
-    find_surfaces(level, eye, stats);
-    if (shadows_) add_lights(level, stats);
-    sum_up(level, eye);
-    next.rays.clear();
-    if (secondary_) send_secondary(level, next, stats);
-    any = !next.rays.empty();
+  while (true) {
+    if (take_part(depth + 1)) {
+      trace_level(++depth, stats);
+    } else if (depth > 0) {
+      bring_back(levels_[depth], levels_[depth - 1]);
+      --depth;
+    } else {
+      break;
+    }
   }
-  while (--depth > 0) bring_back(levels_[depth], levels_[depth - 1]);
   Level& eye = levels_[0];
   if (secondary_)
     for (std::size_t i = 0; i < eye.color.size(); ++i)
       if (eye.hits[i].found()) eye.color[i] = (eye.color[i] + eye.mirrored[i]) + eye.refracted[i];
+}
+
+// What is sent on waits at the next level.
+void Wave::trace_level(std::size_t depth, RenderStats& stats) {
+  if (levels_.size() < depth + 2) levels_.resize(depth + 2);
+  Level &level = levels_[depth], &next = levels_[depth + 1];
+  const bool eye = depth == 0;
+  find_hits(level, eye, stats);
+  find_surfaces(level, eye, stats);
+  if (shadows_) add_lights(level, stats);
+  sum_up(level, eye);
+  if (secondary_) send_secondary(level, next, stats);
+}
+
+// Takes rays that wait at this depth as those that are traced next; false if there are none. Most often these are all of
+// them. But where every hit sends two rays, whole levels would fill any memory: then only so many at a time that what
+// waits at all depths together stays below about 2 kMost (1 + log(kMost / kLeast)) + 2 kLeast depth rays.
+bool Wave::take_part(std::size_t depth) {
+  constexpr std::size_t kMost = 16384, kLeast = 64;
+  Level& level = levels_[depth];
+  const std::size_t part = std::max(std::min(kMost / depth, std::size_t{1024}), kLeast);
+  level.rays.clear();
+  if (level.waiting.size() <= part) {
+    level.rays.swap(level.waiting);
+  } else {
+    const auto first = level.waiting.end() - static_cast<std::ptrdiff_t>(part);
+    level.rays.assign(std::make_move_iterator(first), std::make_move_iterator(level.waiting.end()));
+    level.waiting.erase(first, level.waiting.end());
+  }
+  return !level.rays.empty();
 }
 
 void Wave::begin(const Rect& pixels) {
@@ -340,7 +369,7 @@ void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) const {
       return;
     }
     ++(is_mirrored(path.kind) ? stats.rays.reflection : stats.rays.refraction);
-    next.rays.push_back({std::move(path), c, parent});
+    next.waiting.push_back({std::move(path), c, parent});
   };
   for (std::size_t b = 0; b < used_; ++b) {
     const HitBatch& batch = batches_[b];

@@ -38,9 +38,11 @@ struct WaveRay {
   std::uint32_t parent = 0;
 };
 
-// All rays of one depth. Numbers are those of the rays; of the eye's level, of the tile's samples row by row.
+// Rays of one depth that are traced together. Numbers are those of the rays; of the eye's level, of the tile's samples
+// row by row.
 struct Level {
-  std::vector<WaveRay> rays;  // none at the eye's level: those are the camera's
+  std::vector<WaveRay> rays;     // none at the eye's level: those are the camera's
+  std::vector<WaveRay> waiting;  // rays of this depth whose turn comes later
   std::vector<Hit> hits;
   std::vector<std::uint8_t> alone;  // where known: nothing else stands near the hit (EyePackets)
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
@@ -66,6 +68,8 @@ class Wave {
   Ray ray_of(const Level& level, std::size_t ray) const;
 
   void begin(const Rect& pixels);
+  void trace_level(std::size_t depth, RenderStats& stats);
+  bool take_part(std::size_t depth);
   void find_hits(Level& level, bool eye, RenderStats& stats);
   Hit first_shaded(WaveRay& ray, RenderStats& stats) const;
   void find_surfaces(Level& level, bool eye, RenderStats& stats);

@@ -3,6 +3,7 @@
 // draws a picture through tests/agreement/pictures.h asks this too.
 #include <doctest/doctest.h>
 
+#include "common/clock.h"
 #include "common/scene/build.h"
 #include "common/scene/toml.h"
 #include "tests/agreement/pictures.h"
@@ -157,4 +158,28 @@ TEST_CASE("waves go as deep as the scene asks, without a stack") {
   const Frame frame = raytrace::render(*prepared, make_camera(scene.camera, 1, 1, 1), {});
   CHECK(frame.color[0] == glm::vec3(100000));
   CHECK(frame.stats.rays.reflection == 99999);
+}
+
+TEST_CASE("waves take no more memory where every hit sends two rays") {
+  // Sheets that mirror and transmit, with the eye between them: at each depth twice the rays of the one before.
+  Scene scene;
+  Material sheet;
+  sheet.name = "sheet";
+  sheet.ambient = sheet.reflect = sheet.refract = glm::dvec3(0.5);
+  add_material(scene, sheet);
+  constexpr int kSheets = 40;
+  for (int i = 0; i < kSheets; ++i) {
+    const double z = i - kSheets / 2;
+    add_mesh(scene, mesh_of({{-1e4, -1e4, z}, {1e4, -1e4, z}, {0, 2e4, z}}, {{0, 1, 2}}), {}, {});
+  }
+  scene.ambient = glm::dvec3(1);
+  scene.camera.eye = {0, 0, 0.5};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.view_height = 1;
+  scene.trace.depth = tier() == "sanitized" ? 9 : 17;
+  reset_peak_memory();
+  const double before = peak_memory_mb();
+  check_same(scene, 4, 4, 1);
+  // The last level has 4 x 4 x 2^16 rays of 150 bytes and more.
+  if (tier() != "sanitized") CHECK(peak_memory_mb() - before < 64);
 }
