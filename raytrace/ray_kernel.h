@@ -35,11 +35,12 @@ struct Candidate {
 
   Hit hit(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts) const {
     if constexpr (kRows == TriangleLeaves::kRowCount) {
-      const bool missed = !met && starts_in_flat(ray.origin);
+      const glm::dvec3 v0 = corner(0), v1 = corner(1), v2 = corner(2);
+      const bool missed = !met && (starts_in_flat(ray.origin) || plane_behind(v0, v1, v2, ray));
       if (met || missed) {
         ++counts.tests;
         counts.filtered += 4;
-        return missed ? Hit{} : met_triangle(corner(0), corner(1), corner(2), primitive, ray, after);
+        return missed ? Hit{} : met_triangle(v0, v1, v2, primitive, ray, after);
       }
     }
     return intersect(scene, primitive, ray, after, counts);
