@@ -25,8 +25,11 @@ struct BoxRay {
 
   static constexpr float kSlack = 1 + 0x1p-20f;
 
-  // Depth has a slack of its own: hits up to 2^-18 beyond count.
+  // Depth has a slack of its own: hits up to 2^-18 beyond count, and as much before.
   float limit(double depth) const { return static_cast<float>(depth * scale * (1 + 0x1p-15)) + 0x1p-120f; }
+  float least(double depth) const {
+    return depth > 0 ? static_cast<float>(depth * scale * (1 - 0x1p-15)) : 0;
+  }
 };
 
 template <class F>
@@ -65,21 +68,21 @@ template <class F>
   return out;
 }
 
-// The children that a ray meets at a depth <= limit as bits, and where it enters them.
+// The children that a ray meets at a depth from `least` to `limit` as bits, and where it enters them.
 struct MetChildren {
   std::uint32_t bits = 0;
   alignas(64) std::array<float, BvhNode::kWidth> entry;
 };
 
 template <class F>
-[[gnu::always_inline]] inline void meet_children(const BvhNode& node, const BoxRay& ray, float limit,
-                                                 MetChildren& met) {
+[[gnu::always_inline]] inline void meet_children(const BvhNode& node, const BoxRay& ray, float least,
+                                                 float limit, MetChildren& met) {
   met.bits = 0;
   for (std::size_t lane = 0; lane < BvhNode::kWidth; lane += kLanes<F>) {
     const auto depth = [&](int face, float from, float inverse) {
       return (load<F>(node.face[static_cast<std::size_t>(face)].data() + lane) - F(from)) * F(inverse);
     };
-    F near(0), far(limit);
+    F near(least), far(limit);
     for (std::size_t i = 0; i < 3; ++i) {
       near = lane_max<F>(near, depth(ray.near_face[i], ray.near_from[i], ray.inverse[i]));
       far = lane_min<F>(far, depth(ray.far_face[i], ray.far_from[i], ray.inverse[i]) * F(BoxRay::kSlack));
@@ -89,10 +92,10 @@ template <class F>
   }
 }
 
-// Depth first, nearer children first. Leaf: double(first, count, limit).
+// All leaves met at a depth from `from`, or from 0, to `limit`. Depth first, nearer children first. Leaf: double(first, count, limit).
 template <class F, class Leaf>
-[[gnu::always_inline]] inline std::uint64_t walk(const Bvh& bvh, const Ray& arriving, double limit,
-                                                 const Leaf& leaf) {
+[[gnu::always_inline]] inline std::uint64_t walk(const Bvh& bvh, const Ray& arriving, double from,
+                                                 double limit, const Leaf& leaf) {
   struct Entry {
     float near;
     std::uint32_t first, count;
@@ -102,6 +105,7 @@ template <class F, class Leaf>
   const BoxRay ray = box_ray<F>(bvh, arriving.origin, arriving.direction);
   std::array<Entry, Bvh::kMaxDepth*(BvhNode::kWidth - 1) + 1> stack;
   std::size_t size = 0;
+  const float least = ray.least(from);
   float box_limit = ray.limit(limit);
   MetChildren met;
   Entry top{0, 0, 0};
@@ -113,7 +117,7 @@ template <class F, class Leaf>
     } else {
       ++entered;
       const BvhNode& node = bvh.nodes[top.first];
-      meet_children<F>(node, ray, box_limit, met);
+      meet_children<F>(node, ray, least, box_limit, met);
       const auto child = [&](std::uint32_t bits) {
         const auto i = static_cast<std::size_t>(std::countr_zero(bits));
         return Entry{met.entry[i], node.first[i], node.count[i]};

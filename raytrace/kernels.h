@@ -7,14 +7,23 @@
 
 namespace sidelight::raytrace {
 
+struct PrimitiveVisitor {
+  void* context;
+  void (*visit)(void* context, std::uint32_t primitive);
+};
+// One that calls visit(primitive), which must outlive it.
+template <class Visit>
+PrimitiveVisitor visitor_of(Visit& visit) {
+  return {&visit, [](void* to, std::uint32_t primitive) { (*static_cast<Visit*>(to))(primitive); }};
+}
+
 // Of which primitives but `except` may stands_near() be true at the point, where nearness() is at most `distance`?
 // Those and some others are visited.
 struct NearQuestion {
   glm::dvec3 point;
   double distance;
   std::uint32_t except;
-  void* context;
-  void (*visit)(void* context, std::uint32_t primitive);
+  PrimitiveVisitor visitor;
 };
 
 // Rays are finite; planes are left to the caller.
@@ -24,6 +33,9 @@ struct Kernels {
   // blocker() of prepared.h.
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);
+  // Visits all primitives that may be met at a depth from `from` to `limit`.
+  void (*candidates)(const Prepared& prepared, const Ray& ray, double from, double limit, SignCounts& counts,
+                     const PrimitiveVisitor& visitor);
   std::uint64_t (*visit_leaves)(const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
   void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
   void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);

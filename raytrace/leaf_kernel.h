@@ -127,10 +127,11 @@ class SphereFilter {
  private:
   std::uint32_t may_meet(const double* leaf, std::uint32_t count, double limit) const {
     const D radius = load<D>(leaf + 3 * count), slack(128 * kUnit * reach_);
-    D f[3], along(0), distance2(0), size(0);
+    D f[3], along(0), from_center2(0), distance2(0), size(0);
     for (std::uint32_t i = 0; i < 3; ++i) {
       f[i] = D(origin_[i]) - load<D>(leaf + i * count);
       along = along - f[i] * D(direction_[i]);
+      from_center2 = from_center2 + f[i] * f[i];
     }
     const D t = along / D(square_);  // of the nearest point
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -139,6 +140,8 @@ class SphereFilter {
       size = size + lane_abs<D>(n);
     }
     const D inside = radius * radius - distance2;  // half the chord, squared
+    // A ray that leaves a ball, as sphere_roots() sees it: in its own bits, both roots are negative.
+    const Mask<D> leaving = from_center2 - radius * radius > D(0) && along < D(0);
     const Mask<D> missed = inside < -(slack * (D(2) * (size + radius) + slack));
     // Both ends of a chord that is not short, in units of length along the ray.
     const D half = square_root(lane_max<D>(inside, D(0))) * D(inverse_length_);
@@ -146,7 +149,7 @@ class SphereFilter {
     const Mask<D> clear = inside > D(0x1p-32 * reach_ * reach_);
     const Mask<D> behind = t + half + doubt < D(0);
     const Mask<D> beyond = t - half - doubt > D(limit * kDepthSlack);
-    return mask_bits<D>(!(missed || (clear && (behind || beyond))));
+    return mask_bits<D>(!(leaving || missed || (clear && (behind || beyond))));
   }
 
   std::array<double, 3> origin_, direction_;

@@ -35,24 +35,26 @@ struct Candidate {
 
   Hit hit(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts) const {
     if constexpr (kRows == TriangleLeaves::kRowCount) {
-      const bool missed = !met && starts_in_flat(ray.origin);
+      const glm::dvec3 v0 = corner(0), v1 = corner(1), v2 = corner(2);
+      const bool missed = !met && (starts_in_flat(ray.origin) || plane_behind(v0, v1, v2, ray));
       if (met || missed) {
         ++counts.tests;
         counts.filtered += 4;
-        return missed ? Hit{} : met_triangle(corner(0), corner(1), corner(2), primitive, ray, after);
+        return missed ? Hit{} : met_triangle(v0, v1, v2, primitive, ray, after);
       }
     }
     return intersect(scene, primitive, ray, after, counts);
   }
 };
 
-// Hands every primitive that the filter leaves to ask(candidate, limit), which returns the new limit.
+// Hands every primitive that may be met at a depth from `from` to `limit`, as far as the filter can tell, to
+// ask(candidate, limit), which returns the new limit.
 template <class F, class Filter, int kRows, class Ask>
 [[gnu::always_inline]] inline double ask_leaves(const Leaves<kRows>& leaves, const Filter& filter,
-                                                const Ray& ray, double limit, SignCounts& counts,
+                                                const Ray& ray, double from, double limit, SignCounts& counts,
                                                 const Ask& ask) {
   counts.nodes +=
-      walk<F>(leaves.bvh, ray, limit, [&](std::uint32_t first, std::uint32_t count, double current) {
+      walk<F>(leaves.bvh, ray, from, limit, [&](std::uint32_t first, std::uint32_t count, double current) {
         const double* leaf = leaves.leaf(first);
         const LeafVerdict verdict = filter(leaf, count, current);
         const auto dropped = count - static_cast<std::uint32_t>(std::popcount(verdict.may));
@@ -68,45 +70,56 @@ template <class F, class Filter, int kRows, class Ask>
   return limit;
 }
 
+// Of triangles and spheres, until a limit is negative.
+template <class F, class D, class Ask>
+[[gnu::always_inline]] inline void ask_all(const Prepared& prepared, const Ray& ray, double from,
+                                           double limit, SignCounts& counts, const Ask& ask) {
+  const TriangleLeaves& triangles = prepared.triangles;
+  const SphereLeaves& spheres = prepared.spheres;
+  if (!triangles.bvh.nodes.empty())
+    limit = ask_leaves<F>(triangles, TriangleFilter<D>(ray), ray, from, limit, counts, ask);
+  if (limit >= 0 && !spheres.bvh.nodes.empty())
+    ask_leaves<F>(spheres, SphereFilter<D>(ray, spheres.bvh.reach), ray, from, limit, counts, ask);
+}
+
 template <class F, class D>
 [[gnu::flatten]] void nearest_in_lanes(const Prepared& prepared, const Ray& ray, const Hit& after, Hit& best,
                                        SignCounts& counts) {
-  const auto ask = [&](const auto& candidate, double) {
+  ask_all<F, D>(prepared, ray, after.t, best.t, counts, [&](const auto& candidate, double) {
     const Hit hit = candidate.hit(prepared.scene, ray, after, counts);
     if (hit.found() && before(hit, best)) best = hit;
     return best.t;
-  };
-  if (!prepared.triangles.bvh.nodes.empty())
-    ask_leaves<F>(prepared.triangles, TriangleFilter<D>(ray), ray, best.t, counts, ask);
-  if (!prepared.spheres.bvh.nodes.empty())
-    ask_leaves<F>(prepared.spheres, SphereFilter<D>(ray, prepared.spheres.bvh.reach), ray, best.t, counts,
-                  ask);
+  });
 }
 
 template <class F, class D>
 [[gnu::flatten]] Hit blocker_in_lanes(const Prepared& prepared, const Ray& ray, const glm::dvec3* light,
                                       const Hit& start, SignCounts& counts) {
   Hit found;
-  const auto ask = [&](const auto& candidate, double limit) {
-    if (!prepared.all_cast_shadows && !casts_shadow(prepared.scene, candidate.primitive)) return limit;
+  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
+  ask_all<F, D>(prepared, ray, start.t, limit, counts, [&](const auto& candidate, double current) {
+    if (!prepared.all_cast_shadows && !casts_shadow(prepared.scene, candidate.primitive)) return current;
     const Hit hit = candidate.hit(prepared.scene, ray, start, counts);
-    if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return limit;
+    if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return current;
     found = hit;
     return -1.0;
-  };
-  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
-  if (!prepared.triangles.bvh.nodes.empty())
-    ask_leaves<F>(prepared.triangles, TriangleFilter<D>(ray), ray, limit, counts, ask);
-  if (!found.found() && !prepared.spheres.bvh.nodes.empty())
-    ask_leaves<F>(prepared.spheres, SphereFilter<D>(ray, prepared.spheres.bvh.reach), ray, limit, counts,
-                  ask);
+  });
   return found;
+}
+
+template <class F, class D>
+[[gnu::flatten]] void candidates_in_lanes(const Prepared& prepared, const Ray& ray, double from, double limit,
+                                          SignCounts& counts, const PrimitiveVisitor& visitor) {
+  ask_all<F, D>(prepared, ray, from, limit, counts, [&](const auto& candidate, double current) {
+    visitor.visit(visitor.context, candidate.primitive);
+    return current;
+  });
 }
 
 template <class F, class D>
 [[gnu::flatten]] std::uint64_t visit_leaves_in_lanes(const Bvh& bvh, const Ray& ray, double limit,
                                                      const LeafVisitor& visitor) {
-  return walk<F>(bvh, ray, limit, [&](std::uint32_t first, std::uint32_t count, double current) {
+  return walk<F>(bvh, ray, 0, limit, [&](std::uint32_t first, std::uint32_t count, double current) {
     return visitor.visit(visitor.context, first, count, current);
   });
 }
@@ -123,7 +136,8 @@ template <class F, class D, int kRows>
                            question.distance)
               << lane;
     for (bits &= others; bits != 0; bits &= bits - 1)
-      question.visit(question.context, items[static_cast<std::uint32_t>(std::countr_zero(bits))]);
+      question.visitor.visit(question.visitor.context,
+                             items[static_cast<std::uint32_t>(std::countr_zero(bits))]);
   });
 }
 
@@ -138,7 +152,8 @@ template <class F, class D>
 }
 
 template <class F, class D>
-inline constexpr Kernels kKernels{nearest_in_lanes<F, D>, blocker_in_lanes<F, D>, visit_leaves_in_lanes<F, D>,
+inline constexpr Kernels kKernels{nearest_in_lanes<F, D>,        blocker_in_lanes<F, D>,
+                                  candidates_in_lanes<F, D>,     visit_leaves_in_lanes<F, D>,
                                   near_triangles_in_lanes<F, D>, near_spheres_in_lanes<F, D>};
 
 }  // namespace sidelight::raytrace

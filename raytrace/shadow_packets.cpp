@@ -12,7 +12,7 @@ namespace {
 
 // What a packet may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget;
 // a single ray takes about four.
-constexpr int kPacketWork = 32, kRayWork = 3;
+constexpr int kPacketWork = 16, kRayWork = 2;
 
 // Every second bit of eight.
 std::uint32_t spread(std::uint32_t x) {

@@ -16,8 +16,8 @@ bool is_finite(const Ray& ray) {
   return std::isfinite(sum.x + sum.y + sum.z) && ray.direction != glm::dvec3(0);
 }
 
-// All primitives whose boxes may be met at a depth <= limit, unfiltered, and all planes: visit(primitive, limit) returns
-// the new limit, negative to stop.
+// For a fault on purpose, whose hits no filter knows: all primitives whose boxes may be met at a depth <= limit, and all
+// planes. visit(primitive, limit) returns the new limit, negative to stop.
 template <class Visit>
 void candidates(const Prepared& prepared, const Ray& ray, double limit, SignCounts& counts, Isa isa,
                 const Visit& visit) {
@@ -137,14 +137,16 @@ glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hi
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,
                               SignCounts& counts, Isa isa) {
   std::vector<Hit> hits;
-  candidates(prepared, ray, last_t, counts, isa, [&](std::uint32_t primitive, double limit) {
+  if (!is_finite(ray)) return hits;
+  auto add = [&](std::uint32_t primitive) {
     Hit hit = intersect(prepared.scene, primitive, ray, kRayStart, counts);
     while (hit.found() && hit.t <= last_t) {  // a sphere may be met twice
       if (!before(hit, from)) hits.push_back(hit);
       hit = intersect(prepared.scene, primitive, ray, hit, counts);
     }
-    return limit;
-  });
+  };
+  for (const std::uint32_t primitive : prepared.planes) add(primitive);
+  kernels_for(isa).candidates(prepared, ray, from.t, last_t, counts, visitor_of(add));
   std::sort(hits.begin(), hits.end(), before);
   return hits;
 }

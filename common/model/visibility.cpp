@@ -208,6 +208,16 @@ Hit met_triangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v
   return first_after(after, {triangle_depth(view, depth_plane(view, v0, v1, v2), ray.direction), primitive});
 }
 
+bool plane_behind(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2, const Ray& ray) {
+  TriangleView view;
+  view.a = {v0 - ray.origin, v1 - ray.origin, v2 - ray.origin};
+  const DepthPlane plane = depth_plane(view, v0, v1, v2);
+  const double d_n = glm::dot(ray.direction, plane.n);
+  const double a0_doubt = 4 * kU * glm::dot(absolute(view.a[0]), plane.weight);
+  const double d_doubt = 4 * kU * glm::dot(absolute(ray.direction), plane.weight);
+  return plane.a0_n > a0_doubt ? d_n < -d_doubt : plane.a0_n < -a0_doubt && d_n > d_doubt;
+}
+
 Hit nearest_of_all(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts) {
   Hit nearest;
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {

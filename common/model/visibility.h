@@ -115,6 +115,10 @@ Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const
 Hit met_triangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2, std::uint32_t primitive,
                  const Ray& ray, const Hit& after);
 
+// Whether the ray surely has the triangle's plane behind its origin, so that intersect() finds nothing: a quick question
+// for rays that leave a triangle.
+bool plane_behind(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2, const Ray& ray);
+
 // The nearest hit of all primitives, by looking at every one of them.
 Hit nearest_of_all(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts);
 

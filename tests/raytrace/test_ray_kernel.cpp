@@ -144,7 +144,7 @@ TEST_CASE("BVH: a ray that starts in the plane of a floor does not meet it") {
 }
 
 // Seen from everywhere, nearly edge-on too, where the depth is an exact quotient.
-TEST_CASE("met_triangle is intersect of a triangle that is met") {
+TEST_CASE("met_triangle is intersect of a triangle that is met, whose plane is not behind") {
   Random random(79);
   std::uint64_t differing = 0, hits = 0;
   for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
@@ -161,7 +161,7 @@ TEST_CASE("met_triangle is intersect of a triangle that is met") {
     const Hit hit = intersect(scene, 0, ray, kRayStart, counts);
     if (!hit.found()) continue;
     ++hits;
-    differing += met_triangle(v0, v1, v2, 0, ray, kRayStart) != hit;
+    differing += met_triangle(v0, v1, v2, 0, ray, kRayStart) != hit || plane_behind(v0, v1, v2, ray);
   }
   CHECK(differing == 0);
   CHECK(hits > 1000);
