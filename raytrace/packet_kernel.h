@@ -233,12 +233,13 @@ void test_leaf(const Prepared& prepared, const TriangleLeaves& leaves, std::uint
 // A sphere with f = o - c and q = f² - r²: with b = -f . d and the discriminant D = b² - d² q, 1/t = (b +- sqrt D) / q, +
 // from outside, - from within.
 //
-// Rounding, with g = |f| + r as sums of components: D is off by less than 2^-46 d² g², and by what lies within the near
-// error n of the surface, d² (2 r n + n²) with n <= 2 near_error reach. Depths are told only well inside the outline and
+// Rounding, with g = |f| + r as sums of components: D is off by less than 2^-46 d² g², and by a ray that passes aside by n,
+// d² (2 r n + n²): the near error, 2 near_error reach, and what the error of (u, v) makes at the sphere, below 4 g of it. Depths are told only well inside the outline and
 // for an origin well off the surface.
 struct SphereSetup {
   double b_u, b_v, b_w, q;  // b = b_u u + b_v v + b_w
-  double doubt, clear;      // of D / d²: below -doubt it is surely missed, above `clear` surely met
+  double b_error;
+  double doubt, clear;  // of D / d²: below -doubt it is surely missed, above `clear` surely met
   double per_q = 1, root_sign = 1;
   bool sure = false;  // whether 1/t is known where it is surely met
 };
@@ -253,8 +254,10 @@ SphereSetup set_up_sphere(const RayPacket& p, const double* row, std::uint32_t c
   s.b_v = along(p.V);
   s.b_w = along(p.W);
   s.q = dot(f, f) - radius * radius;
-  const double g = l1(f) + radius + p.distance, near = 2 * p.near_error * p.reach, size_q = lane_abs(s.q);
-  s.doubt = 0x1p-46 * (g * g) + near * (2 * radius + near);
+  const double g = l1(f) + radius + p.distance, size_q = lane_abs(s.q);
+  const double near = 2 * p.near_error * p.reach, aside = near + 4 * g * p.place_error;
+  s.doubt = 0x1p-46 * (g * g) + aside * (2 * radius + aside);
+  s.b_error = 0x1p-46 * g + 2 * g * p.place_error;
   s.clear = lane_max(0x1p-28 * (g * g), 0x1p-20 * (radius * radius));
   s.sure = size_q > 0x1p-18 * (g * g) && size_q > 0x1p24 * (near * g);
   s.per_q = 1 / (s.sure ? s.q : 1.0);
@@ -269,7 +272,8 @@ std::uint32_t groups_met(const RayPacket& p, const SphereSetup& s) {
   const double q = s.q - s.doubt;
   if (!s.sure || !(q > 0)) return all;
   const auto size = [](double x) { return lane_abs(static_cast<float>(x)); };
-  const float error = 0x1p-20f * ((size(s.b_u) * p.extent_u + size(s.b_v) * p.extent_v) + size(s.b_w));
+  const float error = 0x1p-20f * ((size(s.b_u) * p.extent_u + size(s.b_v) * p.extent_v) + size(s.b_w)) +
+                      static_cast<float>(2 * s.b_error);
   const float less_q = static_cast<float>(q) * (1 - 0x1p-20f);
   std::uint32_t bits = 0;
   for (std::size_t g = 0; g < static_cast<std::size_t>(p.groups); g += kLanes<F>) {
@@ -288,23 +292,27 @@ template <class F, class D>
 bool test_spheres(RayPacket& p, const SphereSetup& s, std::size_t ray, std::uint32_t primitive,
                   SignCounts& counts) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  alignas(64) std::array<float, kLanes<F>> ws, states;  // state: 1 surely met, -1 surely missed
+  alignas(64) std::array<float, kLanes<F>> ws, w_errors, states;  // state: 1 surely met, -1 surely missed
   for (std::size_t lane = 0; lane < kLanes<F>; lane += kLanes<D>) {
     const D u = to_double<D>(load<FloatsOf<D>>(&p.u[ray + lane])),
             v = to_double<D>(load<FloatsOf<D>>(&p.v[ray + lane]));
     const D b = (u * D(s.b_u) + v * D(s.b_v)) + D(s.b_w), square = load<D>(&p.square[ray + lane]);
     const D discriminant = b * b - square * D(s.q);
     const D root = square_root(lane_max<D>(discriminant, D(0)));
+    const Mask<D> met = discriminant > square * D(s.clear);
+    const D w_error =
+        (square * D(s.doubt) / select<D>(met, root, D(1)) + D(s.b_error)) * D(lane_abs(s.per_q));
+    store(to_float<D>(w_error), &w_errors[lane]);
     const D missed = select<D>(discriminant < -(square * D(s.doubt)), D(-1), D(0));
     store(to_float<D>((b + D(s.root_sign) * root) * D(s.per_q)), &ws[lane]);
-    store(to_float<D>(select<D>(discriminant > square * D(s.clear), D(1), missed)), &states[lane]);
+    store(to_float<D>(select<D>(met, D(1), missed)), &states[lane]);
   }
   const F state = load<F>(states.data());
   const Mask<F> may = state >= F(0), met = state > F(0);
   if (!any<F>(may)) return false;
   // An unclear one has no depth, so it is asked wherever it is.
   return keep_nearer<F>(p, ray, primitive, met, may, select<F>(met, load<F>(ws.data()), F(0)),
-                        select<F>(met, F(0), F(kInfinity)), s.sure, counts);
+                        select<F>(met, load<F>(w_errors.data()), F(kInfinity)), s.sure, counts);
 }
 
 template <class F, class D>
