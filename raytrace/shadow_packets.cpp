@@ -14,6 +14,9 @@ namespace {
 // a single ray takes about four.
 constexpr int kPacketWork = 16, kRayWork = 2;
 
+// Points nearer to the light than this have no direction from it that a double could hold.
+constexpr double kLeastDepth = 1e-100;
+
 // Every second bit of eight.
 std::uint32_t spread(std::uint32_t x) {
   x = (x | x << 4) & 0x0f0f;
@@ -61,6 +64,10 @@ void ShadowPackets::trace(const Light& light, std::span<const ShadowQuery> queri
     const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
     const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
     const double depth = std::abs(p[axis]), per_depth = 1 / depth;
+    if (depth < kLeastDepth) {
+      dark[i] = is_dark(static_cast<std::uint32_t>(i), counts);
+      continue;
+    }
     faces_[static_cast<std::size_t>(2 * axis + (p[axis] < 0 ? 1 : 0))].push_back(
         {per_depth * p[(axis + 1) % 3], per_depth * p[(axis + 2) % 3], depth, static_cast<std::uint32_t>(i),
          0});

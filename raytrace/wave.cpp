@@ -11,25 +11,6 @@ constexpr LayerMask kParts =
     layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
 
 glm::vec3 rgb(const ShadingBatch::Rgb& from, std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
-glm::vec3 rgb(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
-glm::dvec3 get(const SurfaceBatch::Vectors& from, std::size_t i) {
-  return {from[0][i], from[1][i], from[2][i]};
-}
-void put(SurfaceBatch::Vectors& to, std::size_t i, const glm::dvec3& v) {
-  to[0][i] = v.x;
-  to[1][i] = v.y;
-  to[2][i] = v.z;
-}
-
-// Whether the ray comes from the outward side, Nv being `facing`: as locate() has it.
-bool is_entering(const Scene& scene, const Ray& ray, const Hit& hit, const glm::dvec3& facing) {
-  const PrimitiveRef ref = primitive_ref(scene, hit.primitive);
-  if (ref.kind == ObjectKind::sphere)
-    return glm::dot(facing, (ray.origin - scene.spheres[ref.index].center) + hit.t * ray.direction) > 0;
-  if (ref.kind == ObjectKind::plane) return glm::dot(facing, scene.planes[ref.index].normal) > 0;
-  const auto [v0, v1, v2] = corners(scene, scene.triangles[ref.index]);
-  return glm::dot(facing, glm::cross(v1 - v0, v2 - v0)) > 0;
-}
 
 }  // namespace
 
@@ -165,7 +146,7 @@ Hit Wave::first_shaded(WaveRay& ray, RenderStats& stats) const {
   }
 }
 
-// ---- Surfaces and light ----
+// ---- Surfaces ----
 
 HitBatch& Wave::next_batch() {
   if (used_ == batches_.size()) batches_.emplace_back();
@@ -250,156 +231,6 @@ void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces,
     const Ray ray = ray_of(level, batch.ray[i]);
     place.together = together_depth(ray, hit, place);
     put(batch.from, i, leaving_point(prepared_, ray, hit, place, stats.signs, isa_));
-  }
-}
-
-void Wave::add_lights(const Level& level, RenderStats& stats) {
-  for (std::size_t b = 0; b < used_; ++b) {
-    HitBatch& batch = batches_[b];
-    batch.light = batch.lit.ambient;
-    for (auto& channel : batch.missing) channel.fill(0);
-  }
-  for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) {
-    find_shadows(level, light, stats);
-    add_light(light);
-  }
-}
-
-ShadowQuery Wave::shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const {
-  const std::uint32_t ray = batch.ray[i];
-  ShadowQuery query{batch.from_of(i), level.hits[ray].primitive};
-  if (batch.kind == ObjectKind::sphere &&
-      !is_entering(scene_, ray_of(level, ray), level.hits[ray], get(batch.facing, i)))
-    query.own = kNone;
-  return query;
-}
-
-// Where a shadow ray is blocked, the light's state becomes that of a surface in its own light: b_i = 0.
-void Wave::find_shadows(const Level& level, std::size_t light, RenderStats& stats) {
-  const Light& source = scene_.lights[light];
-  // What is asked, batch by batch; then the answers in the same order.
-  const auto for_each_asked = [&](const auto& visit) {
-    for (std::size_t b = 0; b < used_; ++b)
-      for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
-        if (batches_[b].lit.light[light].state[i] == LightTerms::kAsk) visit(batches_[b], i);
-  };
-  queries_.clear();
-  for (std::size_t b = 0; b < used_; ++b)
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
-      stats.self_shadowed += batches_[b].lit.light[light].state[i] == LightTerms::kSelfShadowed;
-  for_each_asked(
-      [&](const HitBatch& batch, std::size_t i) { queries_.push_back(shadow_query(level, batch, i)); });
-  stats.rays.shadow += queries_.size();
-  if (source.directional) {
-    dark_.clear();
-    for (const ShadowQuery& query : queries_)
-      dark_.push_back(blocker(prepared_, ray_to_light(query.from, source), nullptr, stats.signs, kRayStart,
-                              Precision::exact, isa_)
-                          .found());
-  } else {
-    shadow_packets_.trace(source, queries_, dark_, stats.signs);
-  }
-  std::size_t next = 0;
-  for_each_asked([&](HitBatch& batch, std::size_t i) {
-    if (dark_[next++] != 0) batch.lit.light[light].state[i] = LightTerms::kSelfShadowed;
-  });
-}
-
-void Wave::add_light(std::size_t light) {
-  for (std::size_t b = 0; b < used_; ++b) {
-    HitBatch& batch = batches_[b];
-    const LightTerms& terms = batch.lit.light[light];
-    const auto size = static_cast<std::size_t>(batch.size);
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      for (std::size_t i = 0; i < size; ++i) {
-        const float total = terms.total[channel][i];
-        const bool seen = terms.state[i] != LightTerms::kSelfShadowed;
-        batch.light[channel][i] += seen ? total : 0.0f;
-        batch.missing[channel][i] += seen ? 0.0f : total;
-      }
-  }
-}
-
-// color = c1 (ka Ia + sum b_i T_i), shadow = c1 sum (1 - b_i) T_i, and the unshadowed parts.
-void Wave::sum_up(Level& level, bool eye) {
-  if (eye && want_t_)
-    for (std::size_t i = 0; i < level.hits.size(); ++i) t_[i] = level.hits[i].found() ? level.hits[i].t : 0.0;
-  if (eye && want_parts_)  // the background is booked as ambient light
-    for (std::size_t i = 0; i < level.hits.size(); ++i)
-      if (!level.hits[i].found()) parts_[0][i] = level.color[i];
-  if (!shadows_) return;
-  for (std::size_t b = 0; b < used_; ++b) {
-    const HitBatch& batch = batches_[b];
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
-      const std::uint32_t ray = batch.ray[i];
-      const glm::vec3 c1 = rgb(prepared_.tables.materials[batch.material[i]].local);
-      level.color[ray] = c1 * rgb(batch.light, i);
-      if (!eye) continue;
-      if (want_shadow_) shadow_[ray] = c1 * rgb(batch.missing, i);
-      if (!want_parts_) continue;
-      parts_[0][ray] = c1 * rgb(batch.lit.ambient, i);
-      parts_[1][ray] = c1 * rgb(batch.lit.diffuse, i);
-      parts_[2][ray] = c1 * rgb(batch.lit.specular, i);
-    }
-  }
-}
-
-// ---- Secondary rays ----
-
-// What departures() reads of a surface.
-Surface Wave::surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray) const {
-  const Hit& hit = level.hits[batch.ray[i]];
-  Surface surface;
-  surface.object = scene_.primitive_object[hit.primitive];
-  surface.material = batch.material[i];
-  surface.normal = get(batch.normal, i);
-  surface.facing = get(batch.facing, i);
-  surface.clearance = batch.clearance[i];
-  surface.together = together_depth(ray, hit, surface);
-  surface.entering = is_entering(scene_, ray, hit, surface.facing);
-  return surface;
-}
-
-void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) const {
-  const auto follow = [&](Departure& leaving, std::uint32_t parent) {
-    auto& [path, c] = leaving;
-    if (largest(c) == 0) return;
-    if (!send(scene_, c, path)) {
-      level.cut_weight[parent] += path.weight;
-      return;
-    }
-    ++(is_mirrored(path.kind) ? stats.rays.reflection : stats.rays.refraction);
-    next.waiting.push_back({std::move(path), c, parent});
-  };
-  for (std::size_t b = 0; b < used_; ++b) {
-    const HitBatch& batch = batches_[b];
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
-      const Material& material = scene_.materials[batch.material[i]];
-      if (largest(refract_of(scene_, material)) == 0 && largest(reflect_of(scene_, material)) == 0) continue;
-      const std::uint32_t ray = batch.ray[i];
-      const Hit& hit = level.hits[ray];
-      const Path path = path_of(level, ray);
-      const Surface surface = surface_of(level, batch, i, path.ray);
-      Departures leaving = departures(prepared_, path, hit, surface, batch.from_of(i), stats.signs);
-      follow(leaving.mirrored, ray);
-      follow(leaving.refracted, ray);
-    }
-  }
-}
-
-// c w(r) color of every ray, to where it came from.
-void Wave::bring_back(const Level& level, Level& parent) const {
-  for (std::size_t i = 0; i < level.rays.size(); ++i) {
-    const WaveRay& ray = level.rays[i];
-    glm::vec3 color = level.color[i];
-    if (level.hits[i].found()) color = (color + level.mirrored[i]) + level.refracted[i];
-    const float w =
-        prepared_.needs[Need::secondary_attenuation]
-            ? static_cast<float>(distance_weight(scene_.trace.secondary_attenuation, ray.path, level.hits[i]))
-            : 1.0f;
-    (is_mirrored(ray.path.kind) ? parent.mirrored : parent.refracted)[ray.parent] =
-        glm::vec3(ray.c) * (w * color);
-    parent.cut_weight[ray.parent] += level.cut_weight[i];
   }
 }
 

@@ -49,6 +49,9 @@ struct Level {
   std::vector<double> cut_weight;                     // likewise
 };
 
+// Whether the ray comes from the outward side, Nv being `facing`: as locate() has it.
+bool is_entering(const Scene& scene, const Ray& ray, const Hit& hit, const glm::dvec3& facing);
+
 // One for each thread, for tile after tile of one picture.
 class Wave {
  public:

@@ -13,16 +13,6 @@ using Group = SurfaceBatch::Group;
 
 Vec3<double> vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-void put(SurfaceBatch::Vectors& to, std::size_t i, const glm::dvec3& v) {
-  to[0][i] = v.x;
-  to[1][i] = v.y;
-  to[2][i] = v.z;
-}
-
-glm::dvec3 get(const SurfaceBatch::Vectors& from, std::size_t i) {
-  return {from[0][i], from[1][i], from[2][i]};
-}
-
 // What the kernel reads of one primitive, into entry i; its material.
 std::uint32_t fetch(const Scene& scene, SurfaceBatch& batch, Group& group, std::size_t i) {
   const std::uint32_t index = primitive_ref(scene, batch.primitive[i]).index;

@@ -67,6 +67,16 @@ struct SurfaceBatch {
   bool any_doubtful = false;
 };
 
+// Entry i.
+inline glm::dvec3 get(const SurfaceBatch::Vectors& from, std::size_t i) {
+  return {from[0][i], from[1][i], from[2][i]};
+}
+inline void put(SurfaceBatch::Vectors& to, std::size_t i, const glm::dvec3& v) {
+  to[0][i] = v.x;
+  to[1][i] = v.y;
+  to[2][i] = v.z;
+}
+
 // Fills entries [0, size) of `out`, and of what batch asks for. The same bytes for every isa.
 void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables,
                  SurfaceBatch& batch, ShadingBatch& out, SignCounts& counts);

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What the rays of a packet (packets.h) keep of the primitives they are asked about, group by group. See packet_kernel.h.
+#pragma once
+
+#include <bit>
+
+#include "common/math/lane_ops.h"
+#include "common/math/vec.h"
+#include "raytrace/packets.h"
+
+namespace sidelight::raytrace {
+
+template <class D>
+using FloatsOf = decltype(to_float<D>(D{}));
+template <class F>
+Vec3<F> wide_of(const glm::dvec3& v) {
+  return {F(v.x), F(v.y), F(v.z)};
+}
+template <class F>
+F l1(const Vec3<F>& v) {
+  return (lane_abs<F>(v.x) + lane_abs<F>(v.y)) + lane_abs<F>(v.z);
+}
+
+template <class F>
+void ask_lanes(RayPacket& p, std::size_t first, std::uint32_t bits, std::uint32_t primitive,
+               SignCounts& counts) {
+  for (; bits != 0; bits &= bits - 1) {
+    const std::size_t ray = first + static_cast<std::size_t>(std::countr_zero(bits));
+    p.asked[ray] = true;
+    p.ask(p, ray, primitive, counts);
+  }
+}
+
+// Keeps the primitive where it is surely met and surely nearer than what is kept; asks where that is doubtful. Whether
+// anything may have changed.
+template <class F>
+bool keep_nearer(RayPacket& p, std::size_t first, std::uint32_t primitive, const Mask<F>& met,
+                 const Mask<F>& may, const F& w, const F& w_error, bool sure, SignCounts& counts) {
+  using I = Ints<F>;
+  const F held = load<F>(&p.w[first]);
+  const Mask<F> nearer = met && w * F(0x1p-17f) > w_error && w > held * F(kSurely);
+  const Mask<F> farther = (w + w_error) * F(kSurely) < held;
+  const Mask<F> open = held < F(std::numeric_limits<float>::infinity());
+  const Mask<F> decided = sure ? nearer || farther : Mask<F>(false);
+  const Mask<F> doubtful = may && open && !decided;
+  const Mask<F> taken = sure ? nearer : Mask<F>(false);
+  std::uint32_t asked = mask_bits<F>(doubtful);
+  if (p.any_hit && sure)
+    // The light lies clearly before the surface that asks, which then is not in its way.
+    for (std::uint32_t bits = asked & mask_bits<F>(met); bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      if (p.own[first + lane] == static_cast<std::int32_t>(primitive)) asked &= ~(1u << lane);
+    }
+  if (any<F>(taken)) {
+    store(select<F>(taken, p.any_hit ? F(std::numeric_limits<float>::infinity()) : w, held), &p.w[first]);
+    const F id = from_bits<F>(I(static_cast<std::int32_t>(primitive)));
+    store(to_bits<F>(select<F>(taken, id, from_bits<F>(load<I>(&p.primitive[first])))), &p.primitive[first]);
+  }
+  if (asked != 0) ask_lanes<F>(p, first, asked, primitive, counts);
+  return asked != 0 || any<F>(taken);
+}
+
+template <class F>
+float least_of_group(const RayPacket& p, std::size_t group) {
+  const float* w = &p.w[group * RayPacket::kGroup];
+  F low = load<F>(w);
+  for (int lane = kLanes<F>; lane < RayPacket::kGroup; lane += kLanes<F>)
+    low = lane_min<F>(low, load<F>(w + lane));
+  return least(low);
+}
+
+// After something was kept in these groups.
+template <class F>
+void update_least(RayPacket& p, std::uint32_t groups) {
+  for (; groups != 0; groups &= groups - 1) {
+    const auto g = static_cast<std::size_t>(std::countr_zero(groups));
+    p.least_w[g] = least_of_group<F>(p, g);
+  }
+  float low = p.least_w[0];
+  for (std::size_t g = 1; g < static_cast<std::size_t>(p.groups); ++g) low = lane_min(low, p.least_w[g]);
+  p.least = low;
+}
+
+template <class F>
+bool casts_none(const Prepared& prepared, const RayPacket& p, std::uint32_t primitive) {
+  if (!p.any_hit || p.all_cast) return false;
+  return !prepared.scene.materials[primitive_material(prepared.scene, primitive)].casts_shadow;
+}
+
+}  // namespace sidelight::raytrace

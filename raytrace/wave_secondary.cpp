@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What leaves a level's hits, and what it brings back.
+#include "raytrace/wave.h"
+
+namespace sidelight::raytrace {
+bool is_entering(const Scene& scene, const Ray& ray, const Hit& hit, const glm::dvec3& facing) {
+  const PrimitiveRef ref = primitive_ref(scene, hit.primitive);
+  if (ref.kind == ObjectKind::sphere)
+    return glm::dot(facing, (ray.origin - scene.spheres[ref.index].center) + hit.t * ray.direction) > 0;
+  if (ref.kind == ObjectKind::plane) return glm::dot(facing, scene.planes[ref.index].normal) > 0;
+  const auto [v0, v1, v2] = corners(scene, scene.triangles[ref.index]);
+  return glm::dot(facing, glm::cross(v1 - v0, v2 - v0)) > 0;
+}
+
+// What departures() reads of a surface.
+Surface Wave::surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray) const {
+  const Hit& hit = level.hits[batch.ray[i]];
+  Surface surface;
+  surface.object = scene_.primitive_object[hit.primitive];
+  surface.material = batch.material[i];
+  surface.normal = get(batch.normal, i);
+  surface.facing = get(batch.facing, i);
+  surface.clearance = batch.clearance[i];
+  surface.together = together_depth(ray, hit, surface);
+  surface.entering = is_entering(scene_, ray, hit, surface.facing);
+  return surface;
+}
+
+void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) const {
+  const auto follow = [&](Departure& leaving, std::uint32_t parent) {
+    auto& [path, c] = leaving;
+    if (largest(c) == 0) return;
+    if (!send(scene_, c, path)) {
+      level.cut_weight[parent] += path.weight;
+      return;
+    }
+    ++(is_mirrored(path.kind) ? stats.rays.reflection : stats.rays.refraction);
+    next.waiting.push_back({std::move(path), c, parent});
+  };
+  for (std::size_t b = 0; b < used_; ++b) {
+    const HitBatch& batch = batches_[b];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
+      const Material& material = scene_.materials[batch.material[i]];
+      if (largest(refract_of(scene_, material)) == 0 && largest(reflect_of(scene_, material)) == 0) continue;
+      const std::uint32_t ray = batch.ray[i];
+      const Hit& hit = level.hits[ray];
+      const Path path = path_of(level, ray);
+      const Surface surface = surface_of(level, batch, i, path.ray);
+      Departures leaving = departures(prepared_, path, hit, surface, batch.from_of(i), stats.signs);
+      follow(leaving.mirrored, ray);
+      follow(leaving.refracted, ray);
+    }
+  }
+}
+
+// c w(r) color of every ray, to where it came from.
+void Wave::bring_back(const Level& level, Level& parent) const {
+  for (std::size_t i = 0; i < level.rays.size(); ++i) {
+    const WaveRay& ray = level.rays[i];
+    glm::vec3 color = level.color[i];
+    if (level.hits[i].found()) color = (color + level.mirrored[i]) + level.refracted[i];
+    const float w =
+        prepared_.needs[Need::secondary_attenuation]
+            ? static_cast<float>(distance_weight(scene_.trace.secondary_attenuation, ray.path, level.hits[i]))
+            : 1.0f;
+    (is_mirrored(ray.path.kind) ? parent.mirrored : parent.refracted)[ray.parent] =
+        glm::vec3(ray.c) * (w * color);
+    parent.cut_weight[ray.parent] += level.cut_weight[i];
+  }
+}
+
+}  // namespace sidelight::raytrace
