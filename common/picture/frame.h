@@ -80,7 +80,8 @@ struct RayCounts {
 // against a primitive. A z-buffer's test is a primitive tried at a sample that its box covers; it gives a fragment where
 // the primitive covers the sample, unless a whole block of samples was known to hide it. The float filter decides the
 // three edge signs of all tests of a triangle but those that it finds doubtful. A node is one of the hierarchy that a ray
-// entered.
+// entered, or a packet of rays. A packet's tests are those of whole groups of 16 rays, so their number depends on how rays
+// are packed; a picture with the layer `cost` is traced ray by ray.
 struct SignCounts {
   std::uint64_t filtered = 0, in_double = 0, exact = 0;
   std::uint64_t tests = 0;
