@@ -3,6 +3,7 @@
 #include "raytrace/wave.h"
 
 namespace sidelight::raytrace {
+
 bool is_entering(const Scene& scene, const Ray& ray, const Hit& hit, const glm::dvec3& facing) {
   const PrimitiveRef ref = primitive_ref(scene, hit.primitive);
   if (ref.kind == ObjectKind::sphere)
