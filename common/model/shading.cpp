@@ -113,6 +113,7 @@ void ShadingBatch::set(std::size_t i, const ShadingPoint<float>& point, std::uin
 }
 
 void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
+  if (batch.size == 0) return;  // there may be no material to read
   switch (isa) {
     case Isa::scalar:
       return shade_scalar(tables, batch, with_parts);
@@ -126,6 +127,7 @@ void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_
 void light_terms(Isa isa, const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
                  LitBatch& out) {
   out.light.resize(tables.lights.size());
+  if (batch.size == 0) return;
   switch (isa) {
     case Isa::scalar:
       return light_terms_scalar(tables, batch, with_parts, out);
