@@ -43,6 +43,8 @@ Camera along_edge(const glm::dvec3& from, const glm::dvec3& a, const glm::dvec3&
   camera.height = 1;
   camera.forward = (a + b) / 2.0 - from;
   camera.right = (b - a) / static_cast<double>(camera.width - 1);
+  // Of one row of pixels no ray has anything of it; but the rays of a camera span space.
+  camera.up = glm::length(camera.right) * glm::normalize(glm::cross(camera.right, camera.forward));
   return camera;
 }
 
