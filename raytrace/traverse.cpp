@@ -139,10 +139,11 @@ std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hi
   std::vector<Hit> hits;
   if (!is_finite(ray)) return hits;
   auto add = [&](std::uint32_t primitive) {
+    const bool twice = primitive_ref(prepared.scene, primitive).kind == ObjectKind::sphere;
     Hit hit = intersect(prepared.scene, primitive, ray, kRayStart, counts);
-    while (hit.found() && hit.t <= last_t) {  // a sphere may be met twice
+    while (hit.found() && hit.t <= last_t) {
       if (!before(hit, from)) hits.push_back(hit);
-      hit = intersect(prepared.scene, primitive, ray, hit, counts);
+      hit = twice ? intersect(prepared.scene, primitive, ray, hit, counts) : Hit{};
     }
   };
   for (const std::uint32_t primitive : prepared.planes) add(primitive);

@@ -34,6 +34,10 @@ TEST_CASE("budget: the default sweep leaves out the slowest by name, and no stan
   const BenchResult result = run_sweep(plan_of(kNestedGlass, true));
   std::size_t left_out = 0, finished = 0;
   double dearest_finished = 0;
+  Scene scene = load_scene(kNestedGlass);
+  scene.width = 32;
+  scene.height = 24;
+  Stage stage(scene);
   for (const BenchPoint& point : result.points) {
     CAPTURE(point.varied);
     CHECK(point.finished == point.left_out.empty());
@@ -41,14 +45,12 @@ TEST_CASE("budget: the default sweep leaves out the slowest by name, and no stan
     finished += point.finished;
     if (point.varied.empty()) CHECK(point.finished);
     if (point.finished && !point.varied.empty())
-      dearest_finished =
-          std::max(dearest_finished,
-                   static_cast<double>(point.rays) * (1 + point.tests_per_ray + point.nodes_per_ray));
+      dearest_finished = std::max(dearest_finished, stage.trial_steps(setting_of(point.config)));
     if (!point.left_out.empty()) CHECK(contains(point.left_out, "steps a pixel"));
   }
   CHECK(left_out >= 1);
   CHECK(finished > left_out);
-  CHECK(dearest_finished / (32 * 24) < kRoundSteps);
+  CHECK(dearest_finished < kRoundSteps);
 }
 
 TEST_CASE("budget: a reference image of rays that multiply cuts the weakest, and bounds what it left out") {

@@ -65,7 +65,8 @@ Frame Stage::render(const Setting& setting, const Camera& camera, bool keep_samp
 
 double Stage::trial_steps(const Setting& setting) {
   if (setting.raster) return 0;
-  return steps_an_eye_ray(render(setting, trial_camera(), false).stats) * setting.n * setting.n;
+  // By the recursion: packets of the few rays tried out here have less in common than the picture's, and count more.
+  return steps_an_eye_ray(render_in_double(model_of(setting), trial_camera()).stats) * setting.n * setting.n;
 }
 
 void Stage::build_again(const Setting& setting) {

@@ -45,7 +45,7 @@ class Stage {
   Frame render(const Setting& setting, bool keep_samples) {
     return render(setting, camera(setting.n), keep_samples);
   }
-  // Of a pixel of that picture, tried out. 0 for the z-buffer.
+  // Of a pixel of that picture, tried out as its recursion takes them. 0 for the z-buffer.
   double trial_steps(const Setting& setting);
   // What a renderer does once a scene. Settings with the same key share it.
   using BuildKey = std::tuple<bool, std::optional<int>>;  // raster, tessellate

@@ -14,8 +14,8 @@
 namespace sidelight {
 
 // The default sweep is to take less than two minutes a scene at 640x480 on two cores. So one frame of every configuration
-// may take this many steps a pixel together (stage.h), as tried out on fewer pixels; with seven runs, and 30 ns a step,
-// that is 55 s. The dearest are left out until the rest fits.
+// may take this many steps a pixel together (stage.h), as tried out on fewer pixels; with seven runs, and 12 ns a step,
+// that is 25 s. The dearest are left out until the rest fits.
 inline constexpr double kRoundSteps = 1500;
 
 struct SweepPlan {
