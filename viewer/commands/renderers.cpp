@@ -97,13 +97,20 @@ const Renderer* find_renderer(std::string_view name) {
 }
 
 TimedFrame render_all_layers(const Job& job, const Renderer& renderer) {
+  constexpr LayerMask kCost = layer_bit(Layer::cost);
   RenderOptions options = job.options;
-  options.layers = renderer.layers;
+  options.layers = renderer.layers & ~kCost;
   ProgressBar bar(std::string(renderer.label), job.flags.quiet);
   options.progress = bar.callback();
   TimedFrame timed = renderer.render(job, job.camera, options);
   if (const std::string fault = first_non_finite(timed.frame); !fault.empty())
     throw NumericalFault(fmt::format("{}: {}", renderer.label, fault));
+  if ((renderer.layers & kCost) == 0) return timed;
+  // What a pixel costs is counted by the renderers' readable paths: apart, so that times are those of the fast ones.
+  options.layers = kCost;
+  options.keep_samples = false;
+  options.progress = {};
+  timed.frame.cost = renderer.render(job, job.camera, options).frame.cost;
   return timed;
 }
 
