@@ -4,6 +4,8 @@
 
 namespace sidelight::raytrace {
 
-const Kernels& kernels_avx512() { return kKernels<stdx::simd<float, stdx::simd_abi::deduce_t<float, 8>>, stdx::native_simd<double>>; }
+const Kernels& kernels_avx512() {
+  return kKernels<stdx::simd<float, stdx::simd_abi::deduce_t<float, 8>>, stdx::native_simd<double>>;
+}
 
 }  // namespace sidelight::raytrace

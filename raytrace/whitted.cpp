@@ -93,8 +93,8 @@ Hit Whitted<Real, Recorder>::shadow_blocker(const Surface& surface, const glm::d
   const glm::dvec3 origin = shadow_offset_ ? surface.point : from;
   const Ray ray = ray_to_light(origin, light);
   const Hit start{shadow_offset_ ? *shadow_offset_ / glm::length(ray.direction) : kRayStart.t, kNone};
-  return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start, precision_,
-                 isa_);
+  return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start,
+                 precision_, isa_);
 }
 
 template <class Real, class Recorder>

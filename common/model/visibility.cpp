@@ -196,13 +196,15 @@ Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const
 // rounding of either bound.
 Hit met_triangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2, std::uint32_t primitive,
                  const Ray& ray, const Hit& after) {
-  const glm::dvec3 a0 = v0 - ray.origin, a1 = v1 - ray.origin, a2 = v2 - ray.origin, e1 = v1 - v0, e2 = v2 - v0;
+  const glm::dvec3 a0 = v0 - ray.origin, a1 = v1 - ray.origin, a2 = v2 - ray.origin, e1 = v1 - v0,
+                   e2 = v2 - v0;
   const glm::dvec3 n = glm::cross(e1, e2), edges = absolute(e1) + absolute(e2);
   const glm::dvec3 ends = absolute(a0) + absolute(a1) + absolute(a2);
   const double a0_n = glm::dot(a0, n), d_n = glm::dot(ray.direction, n), t = a0_n / d_n;
   const double e = edges.x + edges.y + edges.z, w = ends.x + ends.y + ends.z + e;
   const glm::dvec3 d = absolute(ray.direction);
-  if (8 * w * e * w <= 0x1p31 * std::abs(a0_n) && 8 * w * e * (d.x + d.y + d.z) <= 0x1p31 * std::abs(d_n) && t > 0)
+  if (8 * w * e * w <= 0x1p31 * std::abs(a0_n) && 8 * w * e * (d.x + d.y + d.z) <= 0x1p31 * std::abs(d_n) &&
+      t > 0)
     return first_after(after, {t, primitive});
   const TriangleView view = view_triangle(ray.origin, v0, v1, v2);
   return first_after(after, {triangle_depth(view, depth_plane(view, v0, v1, v2), ray.direction), primitive});

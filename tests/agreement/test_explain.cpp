@@ -46,11 +46,13 @@ void check_scene(const std::string& file, std::uint64_t seed) {
   options.keep_samples = true;
   const auto rasterizer = raster::prepare(scene);
   const auto tracer = raytrace::prepare(scene);
-  const Frame flat = raster::render(*rasterizer, camera, options), deep = raytrace::render(*tracer, camera, options);
+  const Frame flat = raster::render(*rasterizer, camera, options),
+              deep = raytrace::render(*tracer, camera, options);
 
   test::Random random(seed);
   for (std::uint64_t i = 0; i < test::tier_count("explained_pixels"); ++i) {
-    const int x = static_cast<int>(random.uniform() * camera.width), y = static_cast<int>(random.uniform() * camera.height);
+    const int x = static_cast<int>(random.uniform() * camera.width),
+              y = static_cast<int>(random.uniform() * camera.height);
     CAPTURE(x);
     CAPTURE(y);
     const std::size_t at = flat.index(x, y);
@@ -61,7 +63,8 @@ void check_scene(const std::string& file, std::uint64_t seed) {
     if (!why_flat.background) {
       CHECK(why_flat.local.hit.primitive == flat.sample_primitive[at]);
       CHECK(why_flat.local.hit.t == flat.sample_depth[at]);
-      for (const FragmentRecord& fragment : why_flat.fragments) CHECK_FALSE(before(fragment.hit, why_flat.local.hit));
+      for (const FragmentRecord& fragment : why_flat.fragments)
+        CHECK_FALSE(before(fragment.hit, why_flat.local.hit));
     }
     const RayRecord why_deep = raytrace::explain(*tracer, camera, x, y);
     CHECK(why_deep.color == deep.color[at]);

@@ -74,8 +74,7 @@ TEST_CASE("DET-2: lanes that are not used may hold anything") {
           std::numeric_limits<float>::denorm_min(), -3e38f})
       for (const int size : {1, 3, 7, 8, 9, 17, 40}) {
         ShadingBatch clean, poisoned;
-        for (ShadingBatch::Rgb* rgb :
-             {&poisoned.high, &poisoned.low, &poisoned.normal, &poisoned.to_viewer})
+        for (ShadingBatch::Rgb* rgb : {&poisoned.high, &poisoned.low, &poisoned.normal, &poisoned.to_viewer})
           for (auto& channel : *rgb) channel.fill(poison);
         for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) {
           clean.set(i, points[i].first, points[i].second);

@@ -20,7 +20,9 @@ using namespace sidelight::test;
 namespace {
 
 // Rows and columns of a star sphere of about so many triangles: twice as many columns as rows, two triangles a cell.
-std::uint32_t rows_for(double triangles) { return static_cast<std::uint32_t>(std::max(4.0, std::sqrt(triangles / 4))); }
+std::uint32_t rows_for(double triangles) {
+  return static_cast<std::uint32_t>(std::max(4.0, std::sqrt(triangles / 4)));
+}
 
 Scene scene_of_all(const std::vector<PolygonMesh>& meshes) {
   Scene scene = empty_scene();

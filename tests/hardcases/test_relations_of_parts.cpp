@@ -110,9 +110,10 @@ namespace {
 // two dot products is off by 3 u |a0||n| and 3 u |d||n|, the quotient by 1 u; and that for each of the two triangles.
 double depth_bound(const Scene& scene, const Triangle& triangle, const Ray& ray) {
   const glm::dvec3& v0 = scene.positions[triangle.vertex[0]];
-  const glm::dvec3 n = glm::cross(scene.positions[triangle.vertex[1]] - v0, scene.positions[triangle.vertex[2]] - v0);
+  const glm::dvec3 n =
+      glm::cross(scene.positions[triangle.vertex[1]] - v0, scene.positions[triangle.vertex[2]] - v0);
   const glm::dvec3 a0 = v0 - ray.origin;
-  double farthest = 0;   // the smaller triangle's first vertex may be any point of the edges
+  double farthest = 0;  // the smaller triangle's first vertex may be any point of the edges
   for (const std::uint32_t v : triangle.vertex)
     farthest = std::max(farthest, glm::length(scene.positions[v] - ray.origin));
   const double condition = farthest * glm::length(n) / std::abs(glm::dot(a0, n)) +

@@ -72,8 +72,8 @@ void check_picture(const std::string& name, const Frame& actual) {
   const std::size_t worst = worst_pixels(differences, file.width, kTolerance.fail, 1, 1).front();
   const auto width = static_cast<std::size_t>(file.width);
   FAIL_CHECK(excess.over << " pixels differ; the worst is " << worst % width << "," << worst / width << ": "
-                    << text(actual.color[worst]) << ", stored " << text(stored[worst]) << "; see "
-                    << kFailures << "/" << name << "_difference.exr");
+                         << text(actual.color[worst]) << ", stored " << text(stored[worst]) << "; see "
+                         << kFailures << "/" << name << "_difference.exr");
 }
 
 void check_scene(const std::string& name) {

@@ -68,7 +68,7 @@ Entry any_entry(const ShadingTables& tables, Random& random) {
   point.normal = to_float(normal);
   point.facing = to_float(random.uniform() < 0.5 ? normal : random.direction());
   point.to_viewer = to_float(random.direction());
-  entry.material = random.below(2) == 0 ? 3 : random.below(20);   // so that some vectors have one, others many
+  entry.material = random.below(2) == 0 ? 3 : random.below(20);  // so that some vectors have one, others many
   const ShadingMaterial& material = tables.materials[entry.material];
   point.ambient = material.ambient;
   point.diffuse = material.diffuse;
@@ -232,7 +232,8 @@ TEST_CASE("points and lights are split into two floats that hold 48 bits of each
     surface.point = random.in_box(1000);
     const ShadingPoint<float> point = shading_point(tables, surface, {{0, 0, 0}, {0, 0, 1}});
     const auto check = [&](double high, double low, double whole) {
-      lost += !(std::abs(high + low - tables.length_scale * whole) <= 0x1p-48 * tables.length_scale * std::abs(whole));
+      lost += !(std::abs(high + low - tables.length_scale * whole) <=
+                0x1p-48 * tables.length_scale * std::abs(whole));
     };
     check(point.high.x, point.low.x, surface.point.x);
     check(point.high.y, point.low.y, surface.point.y);

@@ -115,7 +115,8 @@ TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and 
   const HardCase brute_force("BVH-5");
   brute_force.none("nearest hits unlike brute force in any bit", differing, scenes * rays);
   brute_force.none("blockers unlike brute force", wrong_blocker, 2 * scenes * rays);
-  HardCase("TRI-10").none("rays where a blocker and the nearest hit disagree", wrong_blocker, 2 * scenes * rays);
+  HardCase("TRI-10").none("rays where a blocker and the nearest hit disagree", wrong_blocker,
+                          2 * scenes * rays);
   CHECK(ties > 0);
 }
 
@@ -138,7 +139,8 @@ TEST_CASE("hits_between is every hit in the interval, in order, those at its end
       std::vector<Hit> expected;
       for (std::size_t k = first; k < all.size() && all[k].t <= last_t; ++k) expected.push_back(all[k]);
       for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
-        if (machine_has(isa)) differing += hits_between(prepared, ray, all[first], last_t, counts, isa) != expected;
+        if (machine_has(isa))
+          differing += hits_between(prepared, ray, all[first], last_t, counts, isa) != expected;
       found += expected.size();
     }
   }

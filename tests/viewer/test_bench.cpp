@@ -91,7 +91,8 @@ TEST_CASE("bench: without times equal runs give equal bytes, from the cache or n
         {"bench", "good.toml", "-r", "24x18", "-o", folder, "--no-times", "--sweep", "depth"});
     CHECK(outcome.code == 0);
     std::string all;
-    for (const std::string& name : here.names(folder)) all += name + '\n' + read_bytes(here / (folder + "/" + name));
+    for (const std::string& name : here.names(folder))
+      all += name + '\n' + read_bytes(here / (folder + "/" + name));
     return all;
   };
   const std::string first = run("first");
@@ -127,7 +128,9 @@ TEST_CASE("bench: interrupted, it keeps and marks what was finished") {
   json result;
   for (int seconds = 3; seconds < 100; seconds *= 2) {
     result = interrupted_after(seconds);
-    if (std::ranges::all_of(result["points"], [](const json& point) { return point["finished"].get<bool>(); })) break;
+    if (std::ranges::all_of(result["points"],
+                            [](const json& point) { return point["finished"].get<bool>(); }))
+      break;
   }
   CHECK(result["interrupted"].get<bool>());
   for (const json& point : result["points"]) {

@@ -198,7 +198,8 @@ TEST_CASE("bench csv: what is not known is empty") {
   result.timed = false;
   const auto untimed = parse_csv(bench_csv(result));
   CHECK(untimed[0] == cut[0]);
-  for (const char* column : {"frame_ms_median", "build_ms_max", "frame_cpu_ms_min", "frame_memory_mb", "runs"})
+  for (const char* column :
+       {"frame_ms_median", "build_ms_max", "frame_cpu_ms_min", "frame_memory_mb", "runs"})
     CHECK(field(untimed, 1, column) == "");
   CHECK(field(untimed, 1, "whole_rmse") == "0.02");
 

@@ -14,9 +14,9 @@ namespace {
 
 const Arguments kSmall{"good.toml", "-r", "16x12"};
 
-const std::vector<std::string> kCompareFiles{"causes.png",   "compare.json",    "difference.png",
-                                             "raster.exr",   "raster.png",      "raytrace.exr",
-                                             "raytrace.png", "report.html",     "side_by_side.png"};
+const std::vector<std::string> kCompareFiles{"causes.png",   "compare.json", "difference.png",
+                                             "raster.exr",   "raster.png",   "raytrace.exr",
+                                             "raytrace.png", "report.html",  "side_by_side.png"};
 
 Arguments render(const Arguments& more) { return Arguments{"render"} + kSmall + more; }
 Arguments compare_into(const std::string& folder, const Arguments& more = {}) {
@@ -111,7 +111,8 @@ TEST_CASE("output: SIDELIGHT_ISA names a narrower instruction set, --isa has the
   const Workplace here;
   const auto isa = [&](const std::string& named, const Arguments& more = {}) {
     const Arguments asked = render({"-q", "-o", "a.png", "--stats", "-"}) + more;
-    const Outcome outcome = here.command(Arguments{"env", "SIDELIGHT_ISA=" + named, SIDELIGHT_BINARY} + asked);
+    const Outcome outcome =
+        here.command(Arguments{"env", "SIDELIGHT_ISA=" + named, SIDELIGHT_BINARY} + asked);
     REQUIRE(outcome.code == 0);
     return nlohmann::json::parse(outcome.out).at("isa").get<std::string>();
   };
@@ -255,7 +256,8 @@ TEST_CASE("help: fits a screen for every verb and its examples run") {
       // The line as a user types it, but in little, and without a display.
       std::istringstream words(line.substr(sizeof("  sidelight")));
       Arguments command{std::istream_iterator<std::string>(words), {}};
-      const bool has_size = command[0] == "explain" || command[0] == "diff";  // of the pixel or picture it names
+      const bool has_size =
+          command[0] == "explain" || command[0] == "diff";  // of the pixel or picture it names
       if (line.find(" -r ") == std::string::npos && !has_size) command = command + Arguments{"-r", "64x48"};
       const Outcome outcome = here.run(command);
       CAPTURE(outcome.err);

@@ -198,7 +198,8 @@ TEST_CASE("exit code 3: a size that memory refuses is named") {
 TEST_CASE("exit code 3: with faults on purpose, compare counts the memory of three pairs of pictures") {
   const Workplace here;
   const auto gigabytes = [&](const Arguments& faults) {
-    const Outcome outcome = here.run(Arguments{"compare", "good.toml", "-o", "out", "-r", "65535x65535"} + faults);
+    const Outcome outcome =
+        here.run(Arguments{"compare", "good.toml", "-o", "out", "-r", "65535x65535"} + faults);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 3);
     std::smatch found;

@@ -60,8 +60,8 @@ TEST_CASE("fault flags: compare counts spoiled pixels apart and exits with 1") {
 // Floats, a million from the eye, make the two pictures name different facets of one ball in one colour.
 TEST_CASE("fault flags: what two faults spoil together is counted in none of the promises") {
   const Workplace here;
-  const Outcome outcome = here.run({"compare", "scenes/hard/far-ball.toml", "-r", "160x120", "-o", "out", "-q",
-                                    "--precision", "float", "--tessellate", "64"});
+  const Outcome outcome = here.run({"compare", "scenes/hard/far-ball.toml", "-r", "160x120", "-o", "out",
+                                    "-q", "--precision", "float", "--tessellate", "64"});
   CHECK(outcome.code == 1);
   const auto json = nlohmann::json::parse(read_bytes(here / "out/compare.json"));
   CHECK(json["faults"]["tessellate"].get<int>() > 0);

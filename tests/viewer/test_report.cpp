@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "common/picture/image_io.h"
-#include "tests/tier.h"
 #include "tests/support/text.h"
+#include "tests/tier.h"
 #include "tests/viewer/program.h"
 #include "viewer/report/highlights.h"
 #include "viewer/report/plot_svg.h"

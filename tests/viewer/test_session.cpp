@@ -107,7 +107,8 @@ TEST_CASE("worker: blocks become finer, and a new task cuts them short") {
   // 64 samples a pixel take a while; the next task does not wait for them.
   task.n = 8;
   worker.submit(task);
-  while (worker.latest().task.n != 8 || worker.latest().block == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (worker.latest().task.n != 8 || worker.latest().block == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const Pictures complete = worker.last_finished();
   CHECK(complete.task.n == 2);  // what modes that compare go on showing
   task.n = 1;

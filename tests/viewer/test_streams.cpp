@@ -72,7 +72,8 @@ TEST_CASE("streams: standard output is data only, for the verbs that have some")
 
 TEST_CASE("streams: no bar and no colour where there is no terminal") {
   const Workplace here;
-  const Outcome outcome = here.run({"render", "good.toml", "-o", "a.png", "-r", long_render(), "--spp", "16"});
+  const Outcome outcome =
+      here.run({"render", "good.toml", "-o", "a.png", "-r", long_render(), "--spp", "16"});
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
 }

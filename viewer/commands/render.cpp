@@ -42,7 +42,8 @@ LayerMask parse_layers(const RenderFlags& flags, const Renderer& renderer) {
     }
   }
   if (mask & ~renderer.layers)
-    throw UsageError(fmt::format("--layers {}: the renderer '{}' does not make all of these", flags.layers, renderer.name));
+    throw UsageError(fmt::format("--layers {}: the renderer '{}' does not make all of these", flags.layers,
+                                 renderer.name));
   return mask;
 }
 
@@ -74,7 +75,8 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
         {"reflection", stats.rays.reflection},
         {"refraction", stats.rays.refraction}}},
       {"tests", stats.signs.tests},
-      {"exact", {{"filtered", stats.signs.filtered}, {"double", stats.signs.in_double}, {"exact", stats.signs.exact}}},
+      {"exact",
+       {{"filtered", stats.signs.filtered}, {"double", stats.signs.in_double}, {"exact", stats.signs.exact}}},
       {"self_shadowed", stats.self_shadowed},
       {"cut_weight", stats.cut_weight},
       {"peak_memory_mb", peak_memory_mb()}};
@@ -87,8 +89,10 @@ int run_render(const RenderFlags& flags) {
   const Renderer* renderer = find_renderer(flags.renderer);
   const bool exr = ends_with(flags.output, ".exr"), png = ends_with(flags.output, ".png");
   if (!exr && !png) throw UsageError("-o wants a file that ends in .exr or .png; got '" + flags.output + "'");
-  if (!exr && !flags.layers.empty()) throw UsageError("--layers needs an .exr file: a .png holds the colour only");
-  if (!png && flags.linear16) throw UsageError("--linear16 is for .png files; an .exr is linear float already");
+  if (!exr && !flags.layers.empty())
+    throw UsageError("--layers needs an .exr file: a .png holds the colour only");
+  if (!png && flags.linear16)
+    throw UsageError("--linear16 is for .png files; an .exr is linear float already");
   const LayerMask layers = parse_layers(flags, *renderer);
 
   Job job = load_job(flags.job);
@@ -116,7 +120,8 @@ int run_render(const RenderFlags& flags) {
   else if (flags.linear16)
     write_png_linear16(flags.output, timed.frame, metadata);
   else
-    write_png(flags.output, to_image8(timed.frame.color, timed.frame.width(), timed.frame.height()), metadata);
+    write_png(flags.output, to_image8(timed.frame.color, timed.frame.width(), timed.frame.height()),
+              metadata);
 
   if (!flags.stats.empty()) {
     const std::string json = stats_json(job, *renderer, timed, frame_ms, cpu);
@@ -135,14 +140,16 @@ void add_render_command(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("render", "one picture of a scene, by one renderer");
   add_job_flags(*verb, flags->job);
   add_fault_flags(*verb, flags->job.faults);
-  verb->add_option("-o,--output", flags->output, "FILE.png (sRGB, 8 bit) or FILE.exr (linear float)")->required();
+  verb->add_option("-o,--output", flags->output, "FILE.png (sRGB, 8 bit) or FILE.exr (linear float)")
+      ->required();
   std::vector<std::string> names;
   for (const Renderer& r : kRenderers) names.emplace_back(r.name);
   verb->add_option("--renderer", flags->renderer, fmt::format("{}", fmt::join(names, ", ")))
       ->type_name("NAME")
       ->check(CLI::IsMember(names).description(""))
       ->capture_default_str();
-  verb->add_option("--layers", flags->layers, "channels beside the colour, comma-separated, of those named below");
+  verb->add_option("--layers", flags->layers,
+                   "channels beside the colour, comma-separated, of those named below");
   verb->add_flag("--linear16", flags->linear16, "write the .png linear with 16 bits");
   verb->add_option("--repeat", flags->repeat, "render N times after a warm-up, the eye moving, for times")
       ->type_name("N")

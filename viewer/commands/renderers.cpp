@@ -28,7 +28,7 @@ Camera moved_camera(const Job& job, int frame) {
 template <class RenderFrame>
 Frame repeat_frames(const Job& job, int repeat, std::vector<double>& frame_ms, std::vector<double>& cpu,
                     const RenderFrame& render_frame) {
-  for (int i = 0; i <= repeat; ++i) {   // frame 0 warms up
+  for (int i = 0; i <= repeat; ++i) {  // frame 0 warms up
     const Camera camera = moved_camera(job, i);
     const double wall = wall_ms(), processor = cpu_ms();
     render_frame(camera);
@@ -49,8 +49,8 @@ struct Fast {
     Frame frame = render(*prepared, camera, options);
     return {std::move(frame), built - start, wall_ms() - built};
   }
-  static TimedFrame many(const Job& job, const RenderOptions& options, int repeat, std::vector<double>& frame_ms,
-                         std::vector<double>& cpu) {
+  static TimedFrame many(const Job& job, const RenderOptions& options, int repeat,
+                         std::vector<double>& frame_ms, std::vector<double>& cpu) {
     const double start = wall_ms();
     const auto prepared = prepare(job.scene, options.threads);
     TimedFrame out;
@@ -68,8 +68,8 @@ struct Reference {
     Frame frame = render(job.scene, camera, options);
     return {std::move(frame), 0, wall_ms() - start};
   }
-  static TimedFrame many(const Job& job, const RenderOptions& options, int repeat, std::vector<double>& frame_ms,
-                         std::vector<double>& cpu) {
+  static TimedFrame many(const Job& job, const RenderOptions& options, int repeat,
+                         std::vector<double>& frame_ms, std::vector<double>& cpu) {
     TimedFrame out;
     out.frame = repeat_frames(job, repeat, frame_ms, cpu,
                               [&](const Camera& camera) { return render(job.scene, camera, options); });
@@ -88,11 +88,13 @@ const std::array<Renderer, 4> kRenderers{{
     {"raster", "z-buffer", kRasterLayers | layer_bit(Layer::cost), Raster::once, Raster::many},
     {"raytrace", "ray tracer", kAllLayers, Raytrace::once, Raytrace::many},
     {"raster-reference", "z-buffer, reference", kRasterLayers, RasterReference::once, RasterReference::many},
-    {"raytrace-reference", "ray tracer, reference", kRaytraceLayers, RaytraceReference::once, RaytraceReference::many},
+    {"raytrace-reference", "ray tracer, reference", kRaytraceLayers, RaytraceReference::once,
+     RaytraceReference::many},
 }};
 
 const Renderer* find_renderer(std::string_view name) {
-  const auto at = std::find_if(kRenderers.begin(), kRenderers.end(), [&](const Renderer& r) { return r.name == name; });
+  const auto at =
+      std::find_if(kRenderers.begin(), kRenderers.end(), [&](const Renderer& r) { return r.name == name; });
   return at == kRenderers.end() ? nullptr : &*at;
 }
 
