@@ -46,8 +46,7 @@ const Kernels& kernels_avx2();
 const Kernels& kernels_avx512();
 
 inline const Kernels& kernels_for(Isa isa) {
-  if (isa == Isa::avx512) return kernels_avx512();
-  return isa == Isa::avx2 ? kernels_avx2() : kernels_scalar();
+  return by_isa(isa, kernels_scalar, kernels_avx2, kernels_avx512)();
 }
 
 }  // namespace sidelight::raytrace

@@ -44,14 +44,7 @@ void finish(RayPacket& p) {
 }
 
 void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, SignCounts& counts) {
-  switch (isa) {
-    case Isa::scalar:
-      return trace_packet_scalar(prepared, packet, counts);
-    case Isa::avx2:
-      return trace_packet_avx2(prepared, packet, counts);
-    case Isa::avx512:
-      return trace_packet_avx512(prepared, packet, counts);
-  }
+  by_isa(isa, trace_packet_scalar, trace_packet_avx2, trace_packet_avx512)(prepared, packet, counts);
 }
 
 }  // namespace sidelight::raytrace

@@ -17,4 +17,11 @@ std::string_view isa_name(Isa isa);
 // "scalar", "avx2", "avx512"; anything else is empty.
 std::optional<Isa> parse_isa(std::string_view name);
 
+// Of one thing for each instruction set, that for `isa`.
+template <class T>
+T by_isa(Isa isa, T scalar, T avx2, T avx512) {
+  if (isa == Isa::avx512) return avx512;
+  return isa == Isa::avx2 ? avx2 : scalar;
+}
+
 }  // namespace sidelight

@@ -136,17 +136,7 @@ void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const Shadin
   const SurfaceView view{vec(camera.eye), vec(camera.right), vec(camera.up), vec(camera.axis_part()),
                          tables.length_scale};
   batch.any_doubtful = false;
-  switch (isa) {
-    case Isa::scalar:
-      surfaces_scalar(view, batch, out);
-      break;
-    case Isa::avx2:
-      surfaces_avx2(view, batch, out);
-      break;
-    case Isa::avx512:
-      surfaces_avx512(view, batch, out);
-      break;
-  }
+  by_isa(isa, surfaces_scalar, surfaces_avx2, surfaces_avx512)(view, batch, out);
   std::uint64_t again = 0;
   for (std::size_t i = 0; batch.any_doubtful && i < size; ++i)
     if (batch.doubtful[i] != 0) {
