@@ -10,14 +10,9 @@
 #include <array>
 
 #include "common/math/lane_ops.h"
+#include "common/model/ray_sheet.h"
 
 namespace sidelight::raster {
-
-// Every w kept by a tile is within kDepthError of the 1/t of its sample's primitive, t as triangle_depth() gives it:
-// 2^-17 from the float filter, 2^-18 from triangle_depth itself (its contract), 2^-19 for all else. Two such w that
-// differ by more than the factor kSurely are in the order of their depths.
-inline constexpr float kSurely = 1 + 0x1p-14f;   // > ((1 + kDepthError) / (1 - kDepthError))², kDepthError = 2^-16
-inline constexpr float kFilterError = 0x1p-17f;
 
 // Coordinates are exact in float up to this extent in units.
 inline constexpr int kSmallExtent = (1 << 24) - 4;
@@ -68,7 +63,7 @@ ScreenTriangle<F> screen_triangle(const std::array<Ints<F>, 3>& x, const std::ar
   t.slope1 = (w[1] - w[0]) * per_area;
   t.slope2 = (w[2] - w[0]) * per_area;
   const F error = F(4) * t.doubt * per_area * (w_max - w_min) + F(0x1p-21f) * w_max;
-  t.sure_depth = t.sure_side && error <= F(kFilterError) * w_min;
+  t.sure_depth = t.sure_side && error <= F(kFloatDepthError) * w_min;
   return t;
 }
 

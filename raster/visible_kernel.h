@@ -187,8 +187,8 @@ void draw_block(const TileView& tile, const LargeSurface& surface, int X0, int Y
       edges += !(e.low > 0);
     }
 
-  // Below `floor` w is not within kFilterError of itself.
-  const float floor = sure ? w.bound * (1 / kFilterError) : std::numeric_limits<float>::infinity();
+  // Below `floor` w is not within kFloatDepthError of itself.
+  const float floor = sure ? w.bound * (1 / kFloatDepthError) : std::numeric_limits<float>::infinity();
   const int x1 = std::min(surface.box.x1, tile.box.x1) - X0,
             y1 = std::min({surface.box.y1, tile.box.y1, Y0 + 8}) - Y0;
   F least_held(std::numeric_limits<float>::infinity());

@@ -38,7 +38,7 @@ bool keep_nearer(RayPacket& p, std::size_t first, std::uint32_t primitive, const
                  const Mask<F>& may, const F& w, const F& w_error, bool sure, SignCounts& counts) {
   using I = Ints<F>;
   const F held = load<F>(&p.w[first]);
-  const Mask<F> nearer = met && w * F(0x1p-17f) > w_error && w > held * F(kSurely);
+  const Mask<F> nearer = met && w * F(kFloatDepthError) > w_error && w > held * F(kSurely);
   const Mask<F> farther = (w + w_error) * F(kSurely) < held;
   const Mask<F> open = held < F(std::numeric_limits<float>::infinity());
   const Mask<F> decided = sure ? nearer || farther : Mask<F>(false);

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 
+#include "common/model/ray_sheet.h"
 #include "raytrace/prepared.h"
 
 namespace sidelight::raytrace {
@@ -24,17 +25,15 @@ struct RayPacket {
   // The rays. Of shadow rays the origin is the light, and they go from there to the surfaces.
   int size = 0;
   glm::dvec3 origin{0}, W{0}, U{0}, V{0};
-  double length = 0;  // at least |x| + |y| + |z| of any d, and of every partial sum on the way to it
-  double distance =
-      0;  // at least the distance from the origin of any surface that asks for its shadow; else 0
+  double length = 0;       // at least |x| + |y| + |z| of any d, and of every partial sum on the way to it
+  double distance = 0;     // of shadow rays: at least the distance from the origin of any surface that asks
   double place_error = 0;  // u and v may be off by this
-  double near_error =
-      0;  // beside its own rounding, what is nearer to a ray than this times its distance is doubtful
-  double reach = 0;  // greatest coordinate of all that can be met, and of the origin
+  double near_error = 0;   // what is nearer to a ray than this times its distance is doubtful as well
+  double reach = 0;        // greatest coordinate of all that can be met, and of the origin
   alignas(64) PerRay<float> u, v;
   alignas(64) PerRay<float> w;  // what counts is nearer than 1/w; 0: anything. Then of what is kept
-  alignas(64)
-      PerRay<std::int32_t> primitive;  // what is kept: the nearest, or of shadow rays some blocker; -1: none
+  // What is kept: the nearest, or of shadow rays some blocker; -1: none.
+  alignas(64) PerRay<std::int32_t> primitive;
   alignas(64) PerRay<std::int32_t> own;  // of shadow rays: the flat surface that asks, or -1
   bool any_hit = false;                  // shadow rays: the first one will do
   bool all_cast = true;                  // whether every material casts shadows
@@ -57,10 +56,6 @@ struct RayPacket {
   void (*ask)(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) = nullptr;
   void* context = nullptr;
 };
-
-// Of w: two that differ by more than this factor are surely in the order of the depths of visibility.h, each being
-// within 2^-16 of 1/t: 2^-17 by the float bound, 2^-18 by visibility.h, and all else.
-inline constexpr float kSurely = 1 + 0x1p-14f;
 
 // Fills what is derived. Entries beyond `size`, up to whole groups, become rays that ask for nothing.
 void finish(RayPacket& packet);
