@@ -3,24 +3,17 @@
 
 #include <algorithm>
 
+#include "common/picture/tile_pixels.h"
 #include "common/prefetch.h"
 
 namespace sidelight::raster {
-namespace {
-
-constexpr LayerMask kParts =
-    layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
-
-glm::vec3 rgb(const ShadingBatch::Rgb& from, std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
-
-}  // namespace
 
 TileResolve::TileResolve(const Prepared& prepared, const Camera& camera, const RenderOptions& options)
     : prepared_(prepared),
       camera_(camera),
       isa_(options.isa),
       n_(camera.n),
-      want_parts_((options.layers & kParts) != 0),
+      want_parts_((options.layers & kLocalParts) != 0),
       want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
       want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples) {
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
@@ -140,90 +133,32 @@ void TileResolve::flush(SurfaceBatch& batch, SignCounts& counts) {
   surfaces_at(isa_, prepared_.scene, camera_, prepared_.tables, batch, shading_, counts);
   sidelight::shade(isa_, prepared_.tables, shading_, want_parts_);
   const auto size = static_cast<std::size_t>(batch.size);
-  for (std::size_t i = 0; i < size; ++i) color_[batch.sample[i]] = rgb(shading_.unshadowed, i);
+  for (std::size_t i = 0; i < size; ++i) color_[batch.sample[i]] = get(shading_.unshadowed, i);
   if (want_t_)
     for (std::size_t i = 0; i < size; ++i) t_[batch.sample[i]] = batch.t[i];
   if (want_normal_)
-    for (std::size_t i = 0; i < size; ++i) normal_[batch.sample[i]] = rgb(shading_.normal, i);
+    for (std::size_t i = 0; i < size; ++i) normal_[batch.sample[i]] = get(shading_.normal, i);
   if (want_parts_)
     for (std::size_t i = 0; i < size; ++i) {
-      parts_[0][batch.sample[i]] = rgb(shading_.ambient_layer, i);
-      parts_[1][batch.sample[i]] = rgb(shading_.diffuse_layer, i);
-      parts_[2][batch.sample[i]] = rgb(shading_.specular_layer, i);
+      parts_[0][batch.sample[i]] = get(shading_.ambient_layer, i);
+      parts_[1][batch.sample[i]] = get(shading_.diffuse_layer, i);
+      parts_[2][batch.sample[i]] = get(shading_.specular_layer, i);
     }
   batch.size = 0;
 }
 
-// write(the pixel's index in the frame, the index of its first sample)
-template <class Write>
-void TileResolve::for_each_pixel(const Frame& frame, const Write& write) const {
-  for (int y = pixels_.y0; y < pixels_.y1; ++y) {
-    const std::size_t pixel = frame.index(pixels_.x0, y), sample = index(n_ * pixels_.x0, n_ * y);
-    for (std::size_t x = 0; x < static_cast<std::size_t>(pixels_.width()); ++x)
-      write(pixel + x, sample + static_cast<std::size_t>(n_) * x);
-  }
-}
-
-void TileResolve::write_means(const Colors& samples, const Frame& frame, Colors& pixels) const {
-  // The mean of one sample is the sample, but for the sign of a zero. A row of them is a row of floats.
-  if (n_ == 1) {
-    for (int y = pixels_.y0; y < pixels_.y1; ++y) {
-      const float* from = &samples[index(pixels_.x0, y)].x;
-      float* to = &pixels[frame.index(pixels_.x0, y)].x;
-      for (int i = 0; i < 3 * pixels_.width(); ++i) to[i] = 0.0f + from[i];
-    }
-    return;
-  }
-  const auto n = static_cast<std::size_t>(n_);
-  for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) {
-    PixelMean mean;
-    for (std::size_t j = 0; j < n; ++j, sample += static_cast<std::size_t>(columns()))
-      for (std::size_t i = 0; i < n; ++i) mean.add(samples[sample + i]);
-    pixels[pixel] = mean.mean(n_ * n_);
-  });
-}
-
 void TileResolve::write(Frame& frame) const {
-  write_means(color_, frame, frame.color);
-  for (std::size_t l = 0; l < parts_.size(); ++l)
-    if (!frame.rgb[l].empty()) write_means(parts_[l], frame, frame.rgb[l]);
-
-  // What is kept of the sample in the middle, (n/2, n/2).
-  const auto n = static_cast<std::size_t>(n_), stride = static_cast<std::size_t>(columns());
-  const std::size_t middle = n / 2 * stride + n / 2;
-  const auto for_each_middle = [&](const auto& array, const auto& write) {
-    if (!array.empty())
-      for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) { write(pixel, sample + middle); });
-  };
-  for_each_middle(frame.depth, [&](std::size_t pixel, std::size_t sample) {
-    frame.depth[pixel] = static_cast<float>(t_[sample] * camera_.depth_scale());
+  const TilePixels tile(pixels_, n_);
+  tile.write_means(color_, frame, frame.color);
+  for (std::size_t l = 0; l < parts_.size(); ++l) tile.write_means(parts_[l], frame, frame.rgb[l]);
+  tile.write_surfaces([&](std::size_t sample) { return primitive_[sample]; }, t_, normal_, prepared_.scene,
+                      camera_.depth_scale(), frame);
+  if (frame.cost.empty() || tests_.empty()) return;
+  tile.for_each_pixel(frame, [&](std::size_t pixel, std::size_t first) {
+    std::uint64_t tests = 0;
+    tile.for_each_sample(first, [&](std::size_t sample) { tests += tests_[sample]; });
+    frame.cost[pixel] = static_cast<float>(tests);
   });
-  for_each_middle(frame.object_id, [&](std::size_t pixel, std::size_t sample) {
-    const std::uint32_t primitive = primitive_[sample];
-    frame.object_id[pixel] = primitive == kNone ? 0 : 1 + prepared_.scene.primitive_object[primitive];
-  });
-  for_each_middle(frame.primitive_id, [&](std::size_t pixel, std::size_t sample) {
-    frame.primitive_id[pixel] = primitive_[sample] == kNone ? 0 : 1 + primitive_[sample];
-  });
-  for_each_middle(frame.normal,
-                  [&](std::size_t pixel, std::size_t sample) { frame.normal[pixel] = normal_[sample]; });
-
-  // What is kept of all samples.
-  if (!frame.cost.empty() && !tests_.empty())
-    for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) {
-      std::uint64_t tests = 0;
-      for (std::size_t j = 0; j < n; ++j)
-        for (std::size_t i = 0; i < n; ++i) tests += tests_[sample + j * stride + i];
-      frame.cost[pixel] = static_cast<float>(tests);
-    });
-  if (!frame.sample_primitive.empty())
-    for_each_pixel(frame, [&](std::size_t pixel, std::size_t sample) {
-      for (std::size_t j = 0; j < n; ++j) {
-        const auto to = static_cast<std::ptrdiff_t>((pixel * n + j) * n);
-        std::copy_n(&primitive_[sample + j * stride], n, frame.sample_primitive.begin() + to);
-        std::copy_n(&t_[sample + j * stride], n, frame.sample_depth.begin() + to);
-      }
-    });
 }
 
 }  // namespace sidelight::raster

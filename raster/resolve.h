@@ -58,9 +58,6 @@ class TileResolve {
   std::size_t shade_row(int Y, std::size_t run, bool known_t, SignCounts& counts);
   void set_background(std::size_t first, std::size_t last);
   void flush(SurfaceBatch& batch, SignCounts& counts);
-  void write_means(const Colors& samples, const Frame& frame, Colors& pixels) const;
-  template <class Write>
-  void for_each_pixel(const Frame& frame, const Write& write) const;
 
   const Prepared& prepared_;
   const Camera& camera_;
@@ -71,8 +68,7 @@ class TileResolve {
   // Of each sample, row by row on the lattice. What is not wanted is empty, or holds what came before.
   const std::uint32_t* primitive_ = nullptr;
   std::vector<std::uint32_t> kept_primitive_, tests_;
-  std::vector<std::uint32_t>
-      run_start_;  // of runs_ runs of one primitive within a row; and the end of the last
+  std::vector<std::uint32_t> run_start_;  // of runs_ runs of one primitive in a row; and the end of the last
   std::size_t runs_ = 0;
   std::vector<double> known_t_, t_;
   Colors color_, normal_;

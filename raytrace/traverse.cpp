@@ -121,9 +121,7 @@ glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hi
   };
   for (const std::uint32_t primitive : prepared.planes) add(primitive);
   const auto question = [&](const Bvh& bvh) {
-    return NearQuestion{
-        place.point, nearness(ray, hit, place, bvh.reach), hit.primitive, &add,
-        [](void* to, std::uint32_t primitive) { (*static_cast<decltype(add)*>(to))(primitive); }};
+    return NearQuestion{place.point, nearness(ray, hit, place, bvh.reach), hit.primitive, visitor_of(add)};
   };
   const Kernels& kernels = kernels_for(isa);
   if (!prepared.triangles.bvh.nodes.empty())

@@ -5,14 +5,6 @@
 #include <iterator>
 
 namespace sidelight::raytrace {
-namespace {
-
-constexpr LayerMask kParts =
-    layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
-
-glm::vec3 rgb(const ShadingBatch::Rgb& from, std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
-
-}  // namespace
 
 Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_media,
            const RenderOptions& options)
@@ -21,10 +13,9 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       camera_(camera),
       eye_media_(eye_media),
       isa_(options.isa),
-      layers_(options.layers),
       secondary_(prepared.needs[Need::mirrors] || prepared.needs[Need::refraction]),
       shadows_(scene_.trace.shadows && !prepared.tables.lights.empty()),
-      want_parts_((options.layers & kParts) != 0),
+      want_parts_((options.layers & kLocalParts) != 0),
       want_shadow_((options.layers & layer_bit(Layer::shadow)) != 0),
       want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
       want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples),
@@ -69,12 +60,12 @@ void Wave::trace_level(std::size_t depth, RenderStats& stats) {
 }
 
 // Takes rays that wait at this depth as those that are traced next; false if there are none. Most often these are all of
-// them. But where every hit sends two rays, whole levels would fill any memory: then only so many at a time that what
-// waits at all depths together stays below about 2 kMost (1 + log(kMost / kLeast)) + 2 kLeast depth rays.
+// them. But where every hit sends two rays, whole levels would fill any memory: then a part at a time, of 1024 at first,
+// of fewer the deeper. What waits at a depth is at most twice the part of the depth before, so at all depths together no
+// more than 2 (16 * 1024 + 16384 ln 16) + 128 depth rays.
 bool Wave::take_part(std::size_t depth) {
-  constexpr std::size_t kMost = 16384, kLeast = 64;
   Level& level = levels_[depth];
-  const std::size_t part = std::max(std::min(kMost / depth, std::size_t{1024}), kLeast);
+  const std::size_t part = std::clamp<std::size_t>(16384 / depth, 64, 1024);
   level.rays.clear();
   if (level.waiting.size() <= part) {
     level.rays.swap(level.waiting);
@@ -195,18 +186,18 @@ void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& st
   std::copy_n(surfaces.sample.begin(), size, batch.ray.begin());
   std::copy_n(shading_.material.begin(), size, batch.material.begin());
   if (eye && want_normal_)
-    for (std::size_t i = 0; i < size; ++i) normal_[batch.ray[i]] = rgb(shading_.normal, i);
+    for (std::size_t i = 0; i < size; ++i) normal_[batch.ray[i]] = get(shading_.normal, i);
 
   if (shadows_) {
     light_terms(isa_, prepared_.tables, shading_, eye && want_parts_, batch.lit);
   } else {
     shade(isa_, prepared_.tables, shading_, eye && want_parts_);
     for (std::size_t i = 0; i < size; ++i) {
-      level.color[batch.ray[i]] = rgb(shading_.unshadowed, i);
+      level.color[batch.ray[i]] = get(shading_.unshadowed, i);
       if (!eye || !want_parts_) continue;
-      parts_[0][batch.ray[i]] = rgb(shading_.ambient_layer, i);
-      parts_[1][batch.ray[i]] = rgb(shading_.diffuse_layer, i);
-      parts_[2][batch.ray[i]] = rgb(shading_.specular_layer, i);
+      parts_[0][batch.ray[i]] = get(shading_.ambient_layer, i);
+      parts_[1][batch.ray[i]] = get(shading_.diffuse_layer, i);
+      parts_[2][batch.ray[i]] = get(shading_.specular_layer, i);
     }
   }
   if (surfaces.want_leaving) find_leaving_points(level, surfaces, batch, stats);

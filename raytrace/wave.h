@@ -25,10 +25,7 @@ struct HitBatch {
   SurfaceBatch::Vectors from, normal, facing;          // leaving_point, N and Nv, where rays leave
   SurfaceBatch::Channel<double> clearance;             // Place::clearance, likewise
   LitBatch lit;
-  ShadingBatch::Rgb light{},
-      missing{};  // sums of T_i, c1 left out: of lights that are seen, and that are not
-
-  glm::dvec3 from_of(std::size_t i) const { return {from[0][i], from[1][i], from[2][i]}; }
+  ShadingBatch::Rgb light{}, missing{};  // sums of T_i, c1 left out: of lights that are seen, that are not
 };
 
 // A secondary ray: where it comes from, and how what it brings back is counted there.
@@ -59,7 +56,8 @@ class Wave {
 
   // Traces the samples of these pixels.
   void trace(const Rect& pixels, RenderStats& stats);
-  // Then: their means into the frame; the sums of their samples' cut weights into `cut`, where it is not empty.
+  // Then: their means into the frame; the sums of their samples' cut weights into `cut`, which is
+  // as large as the frame where there are secondary rays.
   void write(Frame& frame, std::vector<double>& cut) const;
 
  private:
@@ -89,16 +87,11 @@ class Wave {
   void bring_back(const Level& level, Level& parent) const;
   HitBatch& next_batch();
 
-  template <class Write>
-  void for_each_pixel(const Frame& frame, const Write& write) const;
-  void write_means(const Colors& samples, const Frame& frame, Colors& pixels) const;
-
   const Prepared& prepared_;
   const Scene& scene_;
   const Camera& camera_;
   const Media& eye_media_;
   Isa isa_;
-  LayerMask layers_;
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;

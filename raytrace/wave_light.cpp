@@ -5,7 +5,6 @@
 namespace sidelight::raytrace {
 namespace {
 
-glm::vec3 rgb(const ShadingBatch::Rgb& from, std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
 glm::vec3 rgb(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
@@ -24,7 +23,7 @@ void Wave::add_lights(const Level& level, RenderStats& stats) {
 
 ShadowQuery Wave::shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const {
   const std::uint32_t ray = batch.ray[i];
-  ShadowQuery query{batch.from_of(i), level.hits[ray].primitive};
+  ShadowQuery query{get(batch.from, i), level.hits[ray].primitive};
   if (batch.kind == ObjectKind::sphere &&
       !is_entering(scene_, ray_of(level, ray), level.hits[ray], get(batch.facing, i)))
     query.own = kNone;
@@ -90,13 +89,13 @@ void Wave::sum_up(Level& level, bool eye) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
       const std::uint32_t ray = batch.ray[i];
       const glm::vec3 c1 = rgb(prepared_.tables.materials[batch.material[i]].local);
-      level.color[ray] = c1 * rgb(batch.light, i);
+      level.color[ray] = c1 * get(batch.light, i);
       if (!eye) continue;
-      if (want_shadow_) shadow_[ray] = c1 * rgb(batch.missing, i);
+      if (want_shadow_) shadow_[ray] = c1 * get(batch.missing, i);
       if (!want_parts_) continue;
-      parts_[0][ray] = c1 * rgb(batch.lit.ambient, i);
-      parts_[1][ray] = c1 * rgb(batch.lit.diffuse, i);
-      parts_[2][ray] = c1 * rgb(batch.lit.specular, i);
+      parts_[0][ray] = c1 * get(batch.lit.ambient, i);
+      parts_[1][ray] = c1 * get(batch.lit.diffuse, i);
+      parts_[2][ray] = c1 * get(batch.lit.specular, i);
     }
   }
 }

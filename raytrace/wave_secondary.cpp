@@ -47,7 +47,7 @@ void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) const {
       const Hit& hit = level.hits[ray];
       const Path path = path_of(level, ray);
       const Surface surface = surface_of(level, batch, i, path.ray);
-      Departures leaving = departures(prepared_, path, hit, surface, batch.from_of(i), stats.signs);
+      Departures leaving = departures(prepared_, path, hit, surface, get(batch.from, i), stats.signs);
       follow(leaving.mirrored, ray);
       follow(leaving.refracted, ray);
     }

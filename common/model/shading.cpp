@@ -114,28 +114,14 @@ void ShadingBatch::set(std::size_t i, const ShadingPoint<float>& point, std::uin
 
 void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
   if (batch.size == 0) return;  // there may be no material to read
-  switch (isa) {
-    case Isa::scalar:
-      return shade_scalar(tables, batch, with_parts);
-    case Isa::avx2:
-      return shade_avx2(tables, batch, with_parts);
-    case Isa::avx512:
-      return shade_avx512(tables, batch, with_parts);
-  }
+  by_isa(isa, shade_scalar, shade_avx2, shade_avx512)(tables, batch, with_parts);
 }
 
 void light_terms(Isa isa, const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
                  LitBatch& out) {
   out.light.resize(tables.lights.size());
   if (batch.size == 0) return;
-  switch (isa) {
-    case Isa::scalar:
-      return light_terms_scalar(tables, batch, with_parts, out);
-    case Isa::avx2:
-      return light_terms_avx2(tables, batch, with_parts, out);
-    case Isa::avx512:
-      return light_terms_avx512(tables, batch, with_parts, out);
-  }
+  by_isa(isa, light_terms_scalar, light_terms_avx2, light_terms_avx512)(tables, batch, with_parts, out);
 }
 
 }  // namespace sidelight

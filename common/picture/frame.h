@@ -43,9 +43,10 @@ using LayerMask = unsigned;
 constexpr LayerMask layer_bit(Layer layer) { return 1u << static_cast<unsigned>(layer); }
 inline constexpr LayerMask kVisibilityLayers = layer_bit(Layer::depth) | layer_bit(Layer::object) |
                                                layer_bit(Layer::primitive) | layer_bit(Layer::normal);
+inline constexpr LayerMask kLocalParts =
+    layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
 // What render() and render_reference() of a renderer make alike; only render() makes `cost`.
-inline constexpr LayerMask kRasterLayers =
-    kVisibilityLayers | layer_bit(Layer::ambient) | layer_bit(Layer::diffuse) | layer_bit(Layer::specular);
+inline constexpr LayerMask kRasterLayers = kVisibilityLayers | kLocalParts;
 inline constexpr LayerMask kLedgerLayers =
     layer_bit(Layer::shadow) | layer_bit(Layer::reflection) | layer_bit(Layer::refraction);
 inline constexpr LayerMask kRaytraceLayers = kRasterLayers | kLedgerLayers;
