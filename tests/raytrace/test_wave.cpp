@@ -141,6 +141,42 @@ TEST_CASE("waves are the recursion on drawn scenes: scalar") { check_drawn(Isa::
 TEST_CASE("waves are the recursion on drawn scenes: AVX2") { check_drawn(Isa::avx2, 91); }
 TEST_CASE("waves are the recursion on drawn scenes: AVX-512") { check_drawn(Isa::avx512, 92); }
 
+// Edges that pass through the points of rays, as near as doubles come: which side the ray is on no float can tell. Rays
+// leave there, too, past edges that pass through shadow rays.
+TEST_CASE("waves are the recursion where edges run through rays") {
+  Random random(93);
+  for (std::uint64_t left = 2 + tier_count("rays_per_case") / 100000; left > 0; --left) {
+    Scene scene;
+    add_materials(scene, random);
+    scene.ambient = glm::dvec3(0.2);
+    scene.lights = {lamp({0.3, 0.9, 1.1}, 0.8)};
+    scene.camera.eye = random.in_box(1) + glm::dvec3(0, 0, 4);
+    scene.camera.look_at = {0, 0, 0};
+    scene.camera.view_height = 1;
+    const Camera camera = make_camera(scene.camera, 37, 29, 1);
+    std::vector<glm::dvec3> positions;
+    std::vector<Face> faces;
+    const auto add_edge_through = [&](const glm::dvec3& point) {
+      const glm::dvec3 along = random.uniform(0.1, 0.4) * random.direction();
+      const auto first = static_cast<std::uint32_t>(positions.size());
+      positions.insert(positions.end(), {point + along, point - along, point + 0.3 * random.direction()});
+      faces.push_back({first, first + 1, first + 2});
+    };
+    for (int i = 0; i < 300; ++i) {
+      const glm::dvec3 d =
+          camera.direction(static_cast<int>(random.below(37)), static_cast<int>(random.below(29)));
+      const glm::dvec3 seen = scene.camera.eye + random.uniform(3, 5) / glm::length(d) * d;
+      add_edge_through(seen);
+      add_edge_through(glm::mix(seen, scene.lights[0].position, random.uniform(0.3, 0.7)));
+    }
+    PolygonMesh soup = mesh_of(positions, faces);
+    for (PolygonMesh::Face& face : soup.faces) face.material = random.below(6);
+    add_mesh(scene, soup, {}, {});
+    for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+      if (machine_has(isa)) check_same(scene, 37, 29, 1, isa);
+  }
+}
+
 TEST_CASE("waves go as deep as the scene asks, without a stack") {
   // Two mirrors face each other, with the eye in between.
   Scene scene;
