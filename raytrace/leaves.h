@@ -15,9 +15,8 @@ namespace sidelight::raytrace {
 template <int kRows>
 struct Leaves {
   static constexpr int kRowCount = kRows;
-  static constexpr std::uint32_t kPadding =
-      16;   // doubles behind the last leaf, so that vectors may be read past it
-  Bvh bvh;  // its items are numbers of primitives
+  static constexpr std::uint32_t kPadding = 16;  // doubles behind the last leaf: vectors may be read past it
+  Bvh bvh;                                       // its items are numbers of primitives
   std::unique_ptr<double[]> rows;
 
   // Row r of the leaf [first, first + count) begins at + r * count.

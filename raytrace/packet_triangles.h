@@ -13,8 +13,8 @@ struct LeafSetup {
   alignas(64) std::array<Row, 3> x, y, c;  // E_k = x u + y v + c
   alignas(64) Row doubt;                   // an |E_k| not above it may have either sign
   alignas(64) Row wx, wy, wc, w_error;
-  alignas(64)
-      Row sure;  // not 0: the side is sure, and all bounds hold; else nothing is known of depths and sides
+  alignas(
+      64) Row sure;  // not 0: the side is sure, and all bounds hold; else nothing is known of side and depth
 };
 
 // Bounds. l_k = |a_k|, l their greatest, m that of the edges e1, e2, all as sums of components; u = 2^-53.

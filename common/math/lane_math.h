@@ -22,8 +22,7 @@ struct Series<float> {
   static constexpr float kExpLow = -87.0f, kExpHigh = 88.0f;  // results stay normal
   static constexpr int kMantissaBits = 23, kBias = 127;
   static constexpr float kRound = 0x1.8p23f;  // x + kRound has the nearest whole number in its low bits
-  static constexpr float kLn2High = 0x1.62e4p-1f,
-                         kLn2Low = 0x1.7f7d1cp-20f;  // high part has room for n * high
+  static constexpr float kLn2High = 0x1.62e4p-1f, kLn2Low = 0x1.7f7d1cp-20f;  // n * high is exact
 };
 template <>
 struct Series<double> {

@@ -83,13 +83,14 @@ std::array<double, 3> edge_values(const TriangleView& view, const glm::dvec3& di
 
 // What depth needs of a triangle, once per origin.
 struct DepthPlane {
-  glm::dvec3 n;        // (v1 - v0) x (v2 - v0)
-  glm::dvec3 weight;   // bounds the distance of n from the exact normal of the rounded a_k
+  glm::dvec3 n;       // (v1 - v0) x (v2 - v0)
+  glm::dvec3 weight;  // bounds the distance of n from the exact normal of the rounded a_k
   double a0_n = 0;
-  bool sure = false;   // whether a0_n is good to 2^-20
+  bool sure = false;  // whether a0_n is good to 2^-20
 };
 
-DepthPlane depth_plane(const TriangleView& view, const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2);
+DepthPlane depth_plane(const TriangleView& view, const glm::dvec3& v0, const glm::dvec3& v1,
+                       const glm::dvec3& v2);
 
 // The depth t of a ray that meets the triangle: (a_0 . n)/(d . n); where rounding may leave one of them with a relative
 // error above 2^-20 (nearly edge-on), the exact quotient rounded once. Positive. Within 2^-18 of the exact quotient.
@@ -109,7 +110,8 @@ Roots sphere_roots(const Sphere& sphere, const Ray& ray);
 // The nearest hit of one primitive that comes after `after`; not found() if there is none. Spheres: tangent is a hit,
 // from inside one sees the inside. Planes: a parallel or contained ray is a miss. A ray that is not finite, against the
 // contract, meets nothing. One of counts.tests.
-Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after, SignCounts& counts);
+Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after,
+              SignCounts& counts);
 
 // What intersect() finds of a triangle with these corners, for a ray that is known to meet it: only the depth is open.
 Hit met_triangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2, std::uint32_t primitive,
@@ -128,6 +130,7 @@ int side_of(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point
 
 // Whether `hit`, found along `ray` from P with direction light - P, lies strictly between P and the light. Decided by
 // t where that is clear and, next to the light, by the sides on which the two ends lie (exactly, for a triangle).
-bool before_light(const Scene& scene, const Hit& hit, const Ray& ray, const glm::dvec3& light, SignCounts& counts);
+bool before_light(const Scene& scene, const Hit& hit, const Ray& ray, const glm::dvec3& light,
+                  SignCounts& counts);
 
 }  // namespace sidelight

@@ -36,7 +36,7 @@ struct BenchPoint {
   std::vector<KnobValue> config;  // every knob, in the table's order
   std::string varied;     // the knobs by which it differs from its renderer's default; empty for that itself
   std::string left_out;   // why it is not part of the sweep, in words; empty: it is
-  bool finished = false;  // false: left out, or the sweep was interrupted before it; the rest is then not filled
+  bool finished = false;  // false: left out, or the sweep was interrupted first; the rest is then not filled
   std::uint64_t mismatches = 0;       // samples whose surface is not the exact one
   std::vector<std::string> failures;  // gates it fails, in words; empty: it may stand on the front
   bool on_front = false;
@@ -59,17 +59,17 @@ struct BenchPoint {
 
 // The picture that errors are measured against.
 struct ReferenceImage {
-  int n = 0;       // n x n samples a pixel; 0: the sweep was interrupted before it was finished
-  int depth = 0;   // rays along a path, the eye ray included
-  double cut = 0;  // the least weight of a ray that is sent: above 0 where rays multiply without end
-  double cut_weight = 0;      // mean weight of the rays that were not sent even so
-  double unsent_bound = 0;    // the most that these can take from the mean of a channel; may be infinite
+  int n = 0;                // n x n samples a pixel; 0: the sweep was interrupted before it was finished
+  int depth = 0;            // rays along a path, the eye ray included
+  double cut = 0;           // the least weight of a ray that is sent: above 0 where rays multiply without end
+  double cut_weight = 0;    // mean weight of the rays that were not sent even so
+  double unsent_bound = 0;  // the most that these can take from the mean of a channel; may be infinite
   std::vector<double> steps;  // RMSE between n = 1 and 2, 2 and 4, ...
   double bound = 0;           // it stopped when a step had fallen below this ...
   bool converged = false;
-  bool finer = false;         // ... and n was at least twice that of every configuration; or when n was the greatest ...
-  bool too_dear = false;      // ... or because the next n would have exceeded the steps that it may take
-  double remaining = 0;       // estimate of its own RMSE, from the last two steps
+  bool finer = false;     // ... and n was at least twice that of every configuration; or n was greatest ...
+  bool too_dear = false;  // ... or because the next n would have exceeded the steps that it may take
+  double remaining = 0;   // estimate of its own RMSE, from the last two steps
   // RMSE between its picture of one sample a pixel and raytrace-reference's, where that is affordable.
   std::optional<double> against_brute_force;
   double ms = 0;  // what it took, 0 if it came from the cache

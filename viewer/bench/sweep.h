@@ -28,7 +28,7 @@ struct SweepPlan {
   std::atomic<bool>* cancel = nullptr;             // may be null
   std::function<void(const Scene& scene)> loaded;  // hears of each scene, may refuse it; may be empty
   std::function<void(double done)> progress;       // of the whole sweep, from any thread; may be empty
-  bool limited = false;  // leave out, by name, what would exceed kRoundSteps; the renderers' standard settings never
+  bool limited = false;  // leave out, by name, what would exceed kRoundSteps; but no standard setting
 };
 
 // Loads all scenes (throws InputError for the first bad one, and what `loaded` throws) and fills all but `command` and
