@@ -34,12 +34,12 @@ struct Series<double> {
   static constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 };
 
-// 1/0!, 1/1!, ... of e^x.
+// 1/2!, 1/3!, ...: e^x = 1 + x + x² (1/2! + x/3! + ...).
 template <class T>
 constexpr auto exp_series() {
-  std::array<T, Series<T>::kExpTerms + 1> c{};
-  double factorial = 1;
-  for (std::size_t k = 0; k < c.size(); factorial *= static_cast<double>(++k)) c[k] = T(1 / factorial);
+  std::array<T, Series<T>::kExpTerms - 1> c{};
+  double factorial = 2;
+  for (std::size_t k = 0; k < c.size(); factorial *= static_cast<double>(++k + 2)) c[k] = T(1 / factorial);
   return c;
 }
 // 2/3, 2/5, ...: 2 atanh(s) = 2 s + s (2/3 s² + 2/5 s⁴ + ...).
@@ -81,7 +81,9 @@ F lane_exp(const F& x) {
   using Bits = decltype(to_bits(x));
   const F power =
       from_bits<F>((to_bits<F>(rounded) << S::kMantissaBits) + (Bits(S::kBias) << S::kMantissaBits));
-  return select<F>(underflow, F(0), polynomial<F>(r, kSeries) * power);
+  // Of the sums only the last two round by more than 1/8 ulp of the result: by 1/4 and 1/2.
+  const F exp_r = F(1) + (r + r * r * polynomial<F>(r, kSeries));
+  return select<F>(underflow, F(0), exp_r * power);
 }
 
 // log(1 + x) for -1 < x <= 1. Relative error: float 4 ulp, double 4 ulp, for tiny x too.
