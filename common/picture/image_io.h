@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures to and from files. image_write.cpp and image_read.cpp are the only files that know OpenImageIO.
+// Pictures to and from files, through OpenImageIO (picture_codec.h).
 //
 // Files appear whole or not at all (atomic_file.h). The same frame and metadata give the same bytes: DateTime
 // is constant.

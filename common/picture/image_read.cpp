@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-// PNG and EXR to planes of floats and ids. The file's claim is checked before OpenImageIO sees it; pixels are
-// read in the file's own types and decoded here, since OpenImageIO treats integers as normalised wherever it
-// converts.
+// PNG and EXR to planes of floats and ids, for picture_codec.h. Pixels are read in the file's own types and decoded here,
+// since OpenImageIO treats integers as normalised wherever it converts.
 #include <OpenImageIO/imageio.h>
 
 #include <cstring>
 #include <memory>
 #include <new>
 
-#include "common/picture/image_io.h"
-#include "common/picture/picture_claim.h"
+#include "common/picture/picture_codec.h"
 
 namespace sidelight {
 namespace {
@@ -117,6 +115,8 @@ void require_colors(ImageFile& image, const std::string& path) {
   }
 }
 
+}  // namespace
+
 ImageFile read_claimed(const std::string& path, const PictureClaim& claim) {
   OIIO::ImageSpec spec;
   const auto input = open_picture(path, claim.format, spec);
@@ -142,25 +142,6 @@ ImageFile read_claimed(const std::string& path, const PictureClaim& claim) {
   read_channels(*input, spec, linear, path, image);
   require_colors(image, path);
   return image;
-}
-
-}  // namespace
-
-ImageFile read_image(const std::string& path) {
-  const PictureClaim claim = read_claim(path);
-  try {
-    return read_claimed(path, claim);
-  } catch (const std::bad_alloc&) {
-    reject_file(path, "a picture of " + std::to_string(claim.width) + "x" + std::to_string(claim.height) +
-                          " pixels needs more memory than there is");
-  }
-}
-
-std::vector<glm::vec3> colors(const ImageFile& image) {
-  const auto &r = image.channels.at("R"), &g = image.channels.at("G"), &b = image.channels.at("B");
-  std::vector<glm::vec3> colors(r.size());
-  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = {r[i], g[i], b[i]};
-  return colors;
 }
 
 }  // namespace sidelight

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG and EXR from frames. OpenImageIO encodes into memory: OpenEXR may swallow what goes wrong while a file
-// closes, and the bytes then go through write_file, where nothing is lost and no half-written file appears.
+// PNG and EXR from frames, for picture_codec.h.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -11,7 +10,7 @@
 #include <memory>
 
 #include "common/error.h"
-#include "common/picture/image_io.h"
+#include "common/picture/picture_codec.h"
 
 namespace sidelight {
 namespace {
@@ -99,15 +98,6 @@ std::vector<std::uint8_t> encode(const std::string& name, const char* format, co
   return bytes;
 }
 
-std::vector<std::uint8_t> encode_png(const std::string& name, const Image8& image, const Metadata& metadata) {
-  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeUInt8);
-  assert(image.rgb.size() == spec.image_bytes());
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  set_metadata(metadata, spec);
-  return encode(name, "png", spec,
-                [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeUInt8, image.rgb.data()); });
-}
-
 std::uint16_t quantised16(float linear) {
   if (!(linear > 0)) return 0;  // NaN too
   return static_cast<std::uint16_t>(std::floor(65535 * double{std::min(linear, 1.0f)} + 0.5));
@@ -115,13 +105,18 @@ std::uint16_t quantised16(float linear) {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const Image8& image) { return encode_png("picture", image, {}); }
-
-void write_png(const std::string& path, const Image8& image, const Metadata& metadata) {
-  write_file(path, encode_png(path, image, metadata));
+std::vector<std::uint8_t> png_bytes(const std::string& name, const Image8& image, const Metadata& metadata) {
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeUInt8);
+  assert(image.rgb.size() == spec.image_bytes());
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  set_metadata(metadata, spec);
+  return encode(name, "png", spec, [&](OIIO::ImageOutput& output) {
+    return output.write_image(OIIO::TypeUInt8, image.rgb.data());
+  });
 }
 
-void write_png_linear16(const std::string& path, const Frame& frame, const Metadata& metadata) {
+std::vector<std::uint8_t> png_linear16_bytes(const std::string& name, const Frame& frame,
+                                             const Metadata& metadata) {
   OIIO::ImageSpec spec(frame.width(), frame.height(), 3, OIIO::TypeUInt16);
   spec.attribute("oiio:ColorSpace", "Linear");
   set_metadata(metadata, spec);
@@ -131,12 +126,12 @@ void write_png_linear16(const std::string& path, const Frame& frame, const Metad
   for (const glm::vec3& color : frame.color) {
     for (const float channel : {color.x, color.y, color.z}) values.push_back(quantised16(channel));
   }
-  write_file(path, encode(path, "png", spec, [&](OIIO::ImageOutput& output) {
-               return output.write_image(OIIO::TypeUInt16, values.data());
-             }));
+  return encode(name, "png", spec, [&](OIIO::ImageOutput& output) {
+    return output.write_image(OIIO::TypeUInt16, values.data());
+  });
 }
 
-void write_exr(const std::string& path, const Frame& frame, const Metadata& metadata) {
+std::vector<std::uint8_t> exr_bytes(const std::string& name, const Frame& frame, const Metadata& metadata) {
   const std::vector<Channel> channels = channels_of(frame);
   OIIO::ImageSpec spec(frame.width(), frame.height(), static_cast<int>(channels.size()), OIIO::TypeFloat);
   spec.x = frame.window.x0;
@@ -164,7 +159,7 @@ void write_exr(const std::string& path, const Frame& frame, const Metadata& meta
     }
     return true;
   };
-  write_file(path, encode(path, "openexr", spec, write_rows));
+  return encode(name, "openexr", spec, write_rows);
 }
 
 }  // namespace sidelight

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a picture file claims about its size, read from its first bytes before a library allocates for it: a
-// header of 100 bytes can ask for terabytes. Not a decoder; image_read calls it first.
+// header of 100 bytes can ask for terabytes. Not a decoder; read_image calls it first.
 //
 // Sources: Portable Network Graphics, W3C 2003, section 11.2.2 (IHDR); OpenEXR File Layout, openexr.com
 // (header attributes, chlist, box2i, tiledesc).

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Files, and the codec that makes and reads their bytes.
+#include "common/picture/image_io.h"
+
+#include <dlfcn.h>
+
+#include <new>
+
+#include "common/error.h"
+#include "common/picture/picture_claim.h"
+#include "common/picture/picture_codec.h"
+
+namespace sidelight {
+namespace {
+
+const PictureCodec& load_codec() {
+  void* library = dlopen(SIDELIGHT_CODEC, RTLD_NOW | RTLD_LOCAL);
+  void* function = library ? dlsym(library, "sidelight_picture_codec") : nullptr;
+  if (!function) throw OutputError(std::string("pictures cannot be read or written: ") + dlerror());
+  return *reinterpret_cast<decltype(&sidelight_picture_codec)>(function)();
+}
+
+// Loaded once, by the first who asks, and kept.
+const PictureCodec& codec() {
+  static const PictureCodec& loaded = load_codec();
+  return loaded;
+}
+
+}  // namespace
+
+void write_png(const std::string& path, const Image8& image, const Metadata& metadata) {
+  write_file(path, codec().png(path, image, metadata));
+}
+
+std::vector<std::uint8_t> encode_png(const Image8& image) { return codec().png("picture", image, {}); }
+
+void write_png_linear16(const std::string& path, const Frame& frame, const Metadata& metadata) {
+  write_file(path, codec().png_linear16(path, frame, metadata));
+}
+
+void write_exr(const std::string& path, const Frame& frame, const Metadata& metadata) {
+  write_file(path, codec().exr(path, frame, metadata));
+}
+
+ImageFile read_image(const std::string& path) {
+  const PictureClaim claim = read_claim(path);
+  try {
+    return codec().read(path, claim);
+  } catch (const std::bad_alloc&) {
+    reject_file(path, "a picture of " + std::to_string(claim.width) + "x" + std::to_string(claim.height) +
+                          " pixels needs more memory than there is");
+  }
+}
+
+std::vector<glm::vec3> colors(const ImageFile& image) {
+  const auto &r = image.channels.at("R"), &g = image.channels.at("G"), &b = image.channels.at("B");
+  std::vector<glm::vec3> colors(r.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = {r[i], g[i], b[i]};
+  return colors;
+}
+
+}  // namespace sidelight
