@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "common/picture/tile_pixels.h"
+
 namespace sidelight::raytrace {
 
 Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_media,
@@ -13,6 +15,7 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       camera_(camera),
       eye_media_(eye_media),
       isa_(options.isa),
+      primary_(options.primary),
       secondary_(prepared.needs[Need::mirrors] || prepared.needs[Need::refraction]),
       shadows_(scene_.trace.shadows && !prepared.tables.lights.empty()),
       want_parts_((options.layers & kLocalParts) != 0),
@@ -28,7 +31,7 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
 
 void Wave::trace(const Rect& pixels, RenderStats& stats) {
   begin(pixels);
-  stats.rays.primary += samples();
+  if (!primary_) stats.rays.primary += samples();
   trace_level(0, stats);
   std::size_t depth = 0;
   while (true) {
@@ -106,9 +109,26 @@ Path Wave::path_of(const Level& level, std::size_t ray) const {
 
 // ---- Hits ----
 
+// The samples of this tile, out of those of the frame, which are kept pixel by pixel.
+void Wave::take_primary(std::vector<Hit>& hits) const {
+  const TilePixels tile(pixels_, camera_.n);
+  const auto per_pixel = static_cast<std::size_t>(camera_.n) * static_cast<std::size_t>(camera_.n);
+  hits.assign(samples(), {});
+  tile.for_each_pixel(*primary_, [&](std::size_t pixel, std::size_t first) {
+    std::size_t from = pixel * per_pixel;
+    tile.for_each_sample(first, [&](std::size_t sample) {
+      const std::uint32_t primitive = primary_->sample_primitive[from];
+      if (primitive != kNone) hits[sample] = {primary_->sample_depth[from], primitive};
+      ++from;
+    });
+  });
+}
+
 void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   const std::size_t size = eye ? samples() : level.rays.size();
-  if (eye) {
+  if (eye && primary_) {
+    take_primary(level.hits);
+  } else if (eye) {
     eye_packets_.trace(camera_.n * pixels_.x0, camera_.n * pixels_.y0, static_cast<int>(columns()),
                        camera_.n * pixels_.height(), level.hits, level.alone, stats.signs);
   } else {
@@ -149,8 +169,8 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
   for (SurfaceBatch& batch : surfaces_) {
     batch.own_rays = !eye;
     batch.want_leaving = shadows_ || secondary_;
-    batch.has_t = !eye;
-    batch.want_t = eye && (want_t_ || batch.want_leaving);
+    batch.has_t = !eye || primary_;
+    batch.want_t = eye && !primary_ && (want_t_ || batch.want_leaving);
   }
   for (std::size_t i = 0; i < level.hits.size(); ++i) {
     const Hit& hit = level.hits[i];

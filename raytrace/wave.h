@@ -69,6 +69,7 @@ class Wave {
   Ray ray_of(const Level& level, std::size_t ray) const;
 
   void begin(const Rect& pixels);
+  void take_primary(std::vector<Hit>& hits) const;
   void trace_level(std::size_t depth, RenderStats& stats);
   bool take_part(std::size_t depth);
   void find_hits(Level& level, bool eye, RenderStats& stats);
@@ -92,6 +93,7 @@ class Wave {
   const Camera& camera_;
   const Media& eye_media_;
   Isa isa_;
+  const Frame* primary_;      // RenderOptions::primary
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;
