@@ -133,7 +133,8 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
                        camera_.n * pixels_.height(), level.hits, level.alone, stats.signs);
   } else {
     level.hits.resize(size);
-    for (std::size_t i = 0; i < size; ++i) level.hits[i] = first_shaded(level.rays[i], stats);
+    level.alone.assign(size, false);
+    for (std::size_t i = 0; i < size; ++i) level.hits[i] = first_shaded(level.rays[i], level.alone[i], stats);
   }
   level.color.assign(size, glm::vec3(scene_.background));
   if (!secondary_) return;
@@ -142,16 +143,29 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   level.cut_weight.assign(size, 0.0);
 }
 
+// Of the surface where the ray starts, once it has passed it: a flat one is not met again, a ball is at its far side.
+Hit Wave::own_hit(const WaveRay& ray, RenderStats& stats) const {
+  if (ray.own == kNone || primitive_ref(scene_, ray.own).kind != ObjectKind::sphere) return {};
+  const Hit hit = intersect(scene_, ray.own, ray.path.ray, ray.path.start, stats.signs);
+  return hit.found() && ray.passes ? intersect(scene_, ray.own, ray.path.ray, hit, stats.signs) : hit;
+}
+
 // The first hit of a secondary ray that is not just a surface inside of a medium that goes on behind it.
-Hit Wave::first_shaded(WaveRay& ray, RenderStats& stats) const {
+Hit Wave::first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) const {
   Path& path = ray.path;
-  for (Hit hit = nearest(prepared_, path.ray, path.start, stats.signs, Precision::exact, isa_);;
-       hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
-    if (!hit.found() || prepared_.solids.empty() ||
-        !scene_.objects[scene_.primitive_object[hit.primitive]].solid)
-      return hit;
-    const Surface surface = surface_at(scene_, path.ray, hit, stats.signs);
-    const Media behind = media_behind(prepared_, path.ray, hit, surface, path.media, stats.signs);
+  for (Hit hit =
+           nearest_beside(prepared_, path.ray, path.start, ray.own, own_hit(ray, stats), stats.signs, isa_);
+       ; hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
+    alone = false;
+    if (!hit.found() || prepared_.solids.empty()) return hit;
+    const std::uint32_t object = scene_.primitive_object[hit.primitive];
+    if (!scene_.objects[object].solid) return hit;
+    const Lone lone = lone_hit(prepared_, path.ray, hit, isa_);
+    alone = lone != Lone::unknown;
+    const Media behind =
+        alone ? media_behind_lone(prepared_, object, lone == Lone::entering, path.media)
+              : media_behind(prepared_, path.ray, hit, surface_at(scene_, path.ray, hit, stats.signs),
+                             path.media, stats.signs);
     if (behind.current() != path.media.current()) return hit;
     path.media = behind;
   }
@@ -229,13 +243,14 @@ void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces,
   batch.normal = surfaces.normal;
   batch.facing = surfaces.facing;
   batch.clearance = surfaces.clearance;
+  const bool eye = level.rays.empty();
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
     Place place;
     place.point = get(surfaces.point, i);
     place.facing = get(surfaces.facing, i);
     place.clearance = surfaces.clearance[i];
     const Hit& hit = level.hits[batch.ray[i]];
-    if (!level.alone.empty() && level.alone[batch.ray[i]] && hit.t < farthest_alone_) {
+    if (!level.alone.empty() && level.alone[batch.ray[i]] && (!eye || hit.t < farthest_alone_)) {
       put(batch.from, i, place.point + place.clearance * place.facing);  // leaving_point() of nothing near
       continue;
     }
