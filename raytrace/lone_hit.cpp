@@ -34,11 +34,21 @@ glm::dvec3 outward_at(const Scene& scene, const PrimitiveRef& ref, const glm::dv
   return glm::cross(v1 - v0, v2 - v0);
 }
 
-bool near_any_plane(const Prepared& prepared, const glm::dvec3& point, std::uint32_t except, double room) {
-  return std::any_of(prepared.planes.begin(), prepared.planes.end(), [&](std::uint32_t primitive) {
+// Whether anything else, but what `passes` says is not, may have a point in the cube around this one.
+template <class Passes>
+bool anything_near(const Prepared& prepared, const glm::dvec3& point, double room, std::uint32_t except,
+                   Isa isa, const Passes& passes) {
+  for (const std::uint32_t primitive : prepared.planes) {
     const Plane& plane = prepared.scene.planes[primitive_ref(prepared.scene, primitive).index];
-    return primitive != except && std::abs(glm::dot(plane.normal, point - plane.point)) <= 2 * room;
-  });
+    if (primitive != except && std::abs(glm::dot(plane.normal, point - plane.point)) <= 2 * room) return true;
+  }
+  bool any = false;
+  auto found = [&](std::uint32_t primitive) { any |= !passes(primitive); };
+  const NearQuestion question{point, room, except, visitor_of(found)};
+  const Kernels& kernels = kernels_for(isa);
+  if (!prepared.triangles.bvh.nodes.empty()) kernels.near_triangles(prepared.triangles, question);
+  if (!any && !prepared.spheres.bvh.nodes.empty()) kernels.near_spheres(prepared.spheres, question);
+  return any;
 }
 
 }  // namespace
@@ -47,22 +57,31 @@ bool is_steep(const glm::dvec3& direction, const glm::dvec3& facing) {
   return std::abs(glm::dot(direction, facing)) >= kLeastCosine;
 }
 
+bool is_secluded(const Prepared& prepared, std::uint32_t sphere) {
+  const Scene& scene = prepared.scene;
+  const Sphere& ball = scene.spheres[primitive_ref(scene, sphere).index];
+  const double radius = 1.25 * ball.radius;
+  const auto is_far_ball = [&](std::uint32_t primitive) {
+    const PrimitiveRef ref = primitive_ref(scene, primitive);
+    if (ref.kind != ObjectKind::sphere) return false;
+    const Sphere& other = scene.spheres[ref.index];
+    return std::abs(glm::distance(other.center, ball.center) - other.radius) > radius;
+  };
+  return ball.radius * kLeastCosine > room_for(prepared.reach, 2 * ball.radius) &&
+         !anything_near(prepared, ball.center, radius, sphere, best_isa(), is_far_ball);
+}
+
 Lone lone_hit(const Prepared& prepared, const Ray& ray, const Hit& hit, Isa isa) {
+  const PrimitiveRef ref = primitive_ref(prepared.scene, hit.primitive);
   const glm::dvec3 point = ray.origin + hit.t * ray.direction;
   const double length = glm::length(ray.direction);
   const double room = room_for(std::max(prepared.reach, largest(ray.origin)), hit.t * length);
-  const glm::dvec3 outward =
-      outward_at(prepared.scene, primitive_ref(prepared.scene, hit.primitive), point, room);
+  const glm::dvec3 outward = outward_at(prepared.scene, ref, point, room);
   const double along = glm::dot(ray.direction, outward);
   if (!(std::abs(along) > 2 * kLeastCosine * length * glm::length(outward))) return Lone::unknown;
-  if (near_any_plane(prepared, point, hit.primitive, room)) return Lone::unknown;
-  bool lone = true;
-  auto found = [&](std::uint32_t) { lone = false; };
-  const NearQuestion question{point, room, hit.primitive, visitor_of(found)};
-  const Kernels& kernels = kernels_for(isa);
-  if (!prepared.triangles.bvh.nodes.empty()) kernels.near_triangles(prepared.triangles, question);
-  if (lone && !prepared.spheres.bvh.nodes.empty()) kernels.near_spheres(prepared.spheres, question);
-  if (!lone) return Lone::unknown;
+  const bool secluded = ref.kind == ObjectKind::sphere && prepared.secluded[ref.index];
+  const auto none = [](std::uint32_t) { return false; };
+  if (!secluded && anything_near(prepared, point, room, hit.primitive, isa, none)) return Lone::unknown;
   return along < 0 ? Lone::entering : Lone::leaving;
 }
 

@@ -24,10 +24,11 @@ class Prepared {
   ShadingTablesOf<double> tables_in_double;  // for reference images
   TriangleLeaves triangles;
   SphereLeaves spheres;
-  bool all_cast_shadows = true;       // as far as materials say
-  std::vector<std::uint32_t> planes;  // primitive numbers: infinite, so met one by one
-  std::vector<std::uint32_t> solids;  // objects that bound a medium; empty where refraction is off
-  std::vector<Bounds> bounds;         // of each solid
+  bool all_cast_shadows = true;        // as far as materials say
+  std::vector<std::uint32_t> planes;   // primitive numbers: infinite, so met one by one
+  std::vector<std::uint32_t> solids;   // objects that bound a medium; empty where refraction is off
+  std::vector<Bounds> bounds;          // of each solid
+  std::vector<std::uint8_t> secluded;  // of each sphere: whether it is a solid and is_secluded()
   double reach = 0;  // greatest coordinate of all that can be met; of planes, of their points
 
   template <class Real>

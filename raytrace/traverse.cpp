@@ -8,6 +8,7 @@
 #include "common/model/visibility_float.h"
 #include "raytrace/eye_packets.h"
 #include "raytrace/kernels.h"
+#include "raytrace/lone_hit.h"
 
 namespace sidelight::raytrace {
 namespace {
@@ -79,12 +80,16 @@ Prepared::Prepared(const Scene& s, const Needs& n, int threads)
   for (const Object& object : scene.objects)
     if (object.kind == ObjectKind::plane) planes.push_back(object.first_primitive);
   reach = reach_of(*this, glm::dvec3(0));
+  secluded.resize(scene.spheres.size());
   if (!scene.trace.refraction || !needs[Need::refraction]) return;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     if (scene.objects[i].solid) {
       solids.push_back(i);
       bounds.push_back(bounds_of(scene, scene.objects[i]));
     }
+  for (const std::uint32_t solid : solids)
+    if (const Object& object = scene.objects[solid]; object.kind == ObjectKind::sphere)
+      secluded[object.first] = is_secluded(*this, object.first_primitive);
 }
 
 bool casts_shadow(const Scene& scene, std::uint32_t primitive) {

@@ -143,19 +143,26 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   level.cut_weight.assign(size, 0.0);
 }
 
-// Of the surface where the ray starts, once it has passed it: a flat one is not met again, a ball is at its far side.
-Hit Wave::own_hit(const WaveRay& ray, RenderStats& stats) const {
-  if (ray.own == kNone || primitive_ref(scene_, ray.own).kind != ObjectKind::sphere) return {};
-  const Hit hit = intersect(scene_, ray.own, ray.path.ray, ray.path.start, stats.signs);
-  return hit.found() && ray.passes ? intersect(scene_, ray.own, ray.path.ray, hit, stats.signs) : hit;
+// The nearest hit; not that of the surface at which the ray starts and is through.
+Hit Wave::first_hit(const WaveRay& ray, RenderStats& stats) const {
+  const Path& path = ray.path;
+  Hit own;  // a flat surface is not met again, a ball is at its far side
+  if (ray.own != kNone) {
+    const PrimitiveRef ref = primitive_ref(scene_, ray.own);
+    if (ref.kind == ObjectKind::sphere) {
+      own = intersect(scene_, ray.own, path.ray, path.start, stats.signs);
+      if (ray.passes && own.found()) own = intersect(scene_, ray.own, path.ray, own, stats.signs);
+      if (own.found() && prepared_.secluded[ref.index]) return own;
+    }
+  }
+  return nearest_beside(prepared_, path.ray, path.start, ray.own, own, stats.signs, isa_);
 }
 
 // The first hit of a secondary ray that is not just a surface inside of a medium that goes on behind it.
 Hit Wave::first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) const {
   Path& path = ray.path;
-  for (Hit hit =
-           nearest_beside(prepared_, path.ray, path.start, ray.own, own_hit(ray, stats), stats.signs, isa_);
-       ; hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
+  for (Hit hit = first_hit(ray, stats);;
+       hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
     alone = false;
     if (!hit.found() || prepared_.solids.empty()) return hit;
     const std::uint32_t object = scene_.primitive_object[hit.primitive];

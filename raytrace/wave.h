@@ -34,7 +34,7 @@ struct WaveRay {
   Path path;
   glm::dvec3 c{0};
   std::uint32_t parent = 0;
-  // The primitive where it starts, if its own next hit there is found beforehand (Wave::own_hit), else kNone.
+  // The primitive where it starts, if its own next hit there is found beforehand (first_hit), else kNone.
   std::uint32_t own = kNone;
   bool passes = false;  // at its start it crosses that primitive and no other, without a change of medium
 };
@@ -79,7 +79,7 @@ class Wave {
   void trace_level(std::size_t depth, RenderStats& stats);
   bool take_part(std::size_t depth);
   void find_hits(Level& level, bool eye, RenderStats& stats);
-  Hit own_hit(const WaveRay& ray, RenderStats& stats) const;
+  Hit first_hit(const WaveRay& ray, RenderStats& stats) const;
   Hit first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) const;
   void find_surfaces(Level& level, bool eye, RenderStats& stats);
   void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
