@@ -16,9 +16,10 @@ using raytrace::Prepared;
 
 namespace {
 
-// Closed meshes and balls, and next to their surfaces, at all distances down to rounding, sheets, balls and planes.
+// Closed meshes and balls of glass, and next to their surfaces, at all distances down to rounding, sheets, balls and planes.
 Scene crowded_scene(Random& random) {
   Scene scene = empty_scene();
+  scene.materials[0].refract = glm::dvec3(0.5);
   const double far = random.uniform() < 0.3 ? random.log_uniform(1, 1e6) : 0;
   std::vector<glm::dvec3> crowd;  // points on surfaces
   for (int i = 0; i < 3; ++i) {
@@ -127,4 +128,27 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
     }
   }
   CHECK(lone_hits > hits / 2);
+}
+
+TEST_CASE("lone hits: inside a secluded ball brute force finds its far side") {
+  Random random(96);
+  std::uint64_t secluded = 0;
+  for (std::uint64_t left = 20 + tier_count("rays_per_case") / 1000; left > 0; --left) {
+    const Scene scene = crowded_scene(random);
+    const Prepared prepared(scene);
+    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
+      if (!prepared.secluded[i]) continue;
+      ++secluded;
+      const Sphere& ball = scene.spheres[i];
+      SignCounts counts;
+      for (int k = 0; k < 10; ++k) {
+        const Ray ray =
+            make_ray(ball.center + ball.radius * random.uniform() * random.direction(), random.direction());
+        const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
+        const PrimitiveRef met = primitive_ref(scene, hit.primitive);
+        CHECK((met.kind == ObjectKind::sphere && met.index == i));
+      }
+    }
+  }
+  CHECK(secluded > 20);
 }
