@@ -24,6 +24,7 @@ struct NearQuestion {
   double distance;
   std::uint32_t except;
   PrimitiveVisitor visitor;
+  const bool* enough = nullptr;  // where there is one, nothing more is asked once it is true
 };
 
 // Rays are finite; planes are left to the caller.

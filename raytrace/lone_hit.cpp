@@ -44,7 +44,7 @@ bool anything_near(const Prepared& prepared, const glm::dvec3& point, double roo
   }
   bool any = false;
   auto found = [&](std::uint32_t primitive) { any |= !passes(primitive); };
-  const NearQuestion question{point, room, except, visitor_of(found)};
+  const NearQuestion question{point, room, except, visitor_of(found), &any};
   const Kernels& kernels = kernels_for(isa);
   if (!prepared.triangles.bvh.nodes.empty()) kernels.near_triangles(prepared.triangles, question);
   if (!any && !prepared.spheres.bvh.nodes.empty()) kernels.near_spheres(prepared.spheres, question);

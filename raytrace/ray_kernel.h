@@ -139,6 +139,7 @@ template <class F, class D, int kRows>
     for (bits &= others; bits != 0; bits &= bits - 1)
       question.visitor.visit(question.visitor.context,
                              items[static_cast<std::uint32_t>(std::countr_zero(bits))]);
+    return !question.enough || !*question.enough;
   });
 }
 
