@@ -143,7 +143,7 @@ template <class F, class Leaf>
   }
 }
 
-// All leaves within a box around the point.
+// All leaves within a box around the point, until leaf(first, count) is false.
 template <class F, class Leaf>
 [[gnu::always_inline]] inline void walk_near(const Bvh& bvh, const glm::dvec3& point, double distance,
                                              const Leaf& leaf) {
@@ -170,10 +170,10 @@ template <class F, class Leaf>
     }
     for (; bits != 0; bits &= bits - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-      if (node.count[i] > 0)
-        leaf(node.first[i], node.count[i]);
-      else
+      if (node.count[i] == 0)
         stack[size++] = node.first[i];
+      else if (!leaf(node.first[i], node.count[i]))
+        return;
     }
   }
 }

@@ -24,12 +24,14 @@ struct NearQuestion {
   double distance;
   std::uint32_t except;
   PrimitiveVisitor visitor;
+  const bool* enough = nullptr;  // where there is one, nothing more is asked once it is true
 };
 
 // Rays are finite; planes are left to the caller.
 struct Kernels {
-  // Replaces `best` by what is nearer, of that which comes after `after`.
-  void (*nearest)(const Prepared& prepared, const Ray& ray, const Hit& after, Hit& best, SignCounts& counts);
+  // Replaces `best` by what is nearer, of that which comes after `after` and is not `except`.
+  void (*nearest)(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t except, Hit& best,
+                  SignCounts& counts);
   // blocker() of prepared.h.
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);

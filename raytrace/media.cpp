@@ -25,14 +25,32 @@ bool meets(const Prepared& prepared, std::uint32_t a, std::uint32_t b) {
 
 }  // namespace
 
+// Where the solid is, or belongs.
+std::size_t Media::place_of(std::uint32_t solid) const {
+  return static_cast<std::size_t>(std::lower_bound(begin(), begin() + size_, solid) - begin());
+}
+
 void Media::enter(std::uint32_t solid) {
-  const auto at = std::lower_bound(inside_.begin(), inside_.end(), solid);
-  if (at == inside_.end() || *at != solid) inside_.insert(at, solid);
+  const std::size_t at = place_of(solid);
+  if (at < size_ && begin()[at] == solid) return;
+  if (size_ == kFew && many_.empty()) many_.assign(few_.begin(), few_.end());
+  if (many_.empty()) {
+    std::copy_backward(few_.begin() + at, few_.begin() + size_, few_.begin() + size_ + 1);
+    few_[at] = solid;
+  } else {
+    many_.insert(many_.begin() + static_cast<std::ptrdiff_t>(at), solid);
+  }
+  ++size_;
 }
 
 void Media::leave(std::uint32_t solid) {
-  const auto at = std::lower_bound(inside_.begin(), inside_.end(), solid);
-  if (at != inside_.end() && *at == solid) inside_.erase(at);
+  const std::size_t at = place_of(solid);
+  if (at == size_ || begin()[at] != solid) return;
+  if (many_.empty())
+    std::copy(few_.begin() + at + 1, few_.begin() + size_, few_.begin() + at);
+  else
+    many_.erase(many_.begin() + static_cast<std::ptrdiff_t>(at));
+  --size_;
 }
 
 Media media_at(const Prepared& prepared, const glm::dvec3& eye) {
@@ -56,11 +74,18 @@ Media media_behind(const Prepared& prepared, const Ray& ray, const Hit& hit, con
   if (!prepared.needs[Need::overlapping_solids] && kind != ObjectKind::mesh) {
     // Only the solid's own surface can lie together with the hit, a ball's far side: no need to search the scene.
     cross_at(hit);
-    const Hit far_side = kind == ObjectKind::sphere ? intersect(scene, hit.primitive, ray, hit, counts) : Hit{};
+    const Hit far_side =
+        kind == ObjectKind::sphere ? intersect(scene, hit.primitive, ray, hit, counts) : Hit{};
     if (far_side.found() && far_side.t <= surface.together) cross_at(far_side);
     return behind;
   }
   for (const Hit& each : hits_between(prepared, ray, hit, surface.together, counts)) cross_at(each);
+  return behind;
+}
+
+Media media_behind_lone(const Prepared& prepared, std::uint32_t object, bool entering, const Media& media) {
+  Media behind = media;
+  if (!prepared.solids.empty() && prepared.scene.objects[object].solid) cross(behind, object, entering);
   return behind;
 }
 

@@ -24,10 +24,12 @@ class Prepared {
   ShadingTablesOf<double> tables_in_double;  // for reference images
   TriangleLeaves triangles;
   SphereLeaves spheres;
-  bool all_cast_shadows = true;       // as far as materials say
-  std::vector<std::uint32_t> planes;  // primitive numbers: infinite, so met one by one
-  std::vector<std::uint32_t> solids;  // objects that bound a medium; empty where refraction is off
-  std::vector<Bounds> bounds;         // of each solid
+  bool all_cast_shadows = true;        // as far as materials say
+  std::vector<std::uint32_t> planes;   // primitive numbers: infinite, so met one by one
+  std::vector<std::uint32_t> solids;   // objects that bound a medium; empty where refraction is off
+  std::vector<Bounds> bounds;          // of each solid
+  std::vector<std::uint8_t> secluded;  // of each sphere: whether it is a solid and is_secluded()
+  double reach = 0;  // greatest coordinate of all that can be met; of planes, of their points
 
   template <class Real>
   const ShadingTablesOf<Real>& tables_in() const {
@@ -46,6 +48,10 @@ enum class Precision { exact, in_float };
 // The nearest hit after `after`; not found() if there is none. The same as nearest_of_all, found faster.
 Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
             Precision precision = Precision::exact, Isa isa = best_isa());
+
+// The same where of one primitive, `known`, it is known that its hit, if it has one, is `own`: it is not asked.
+Hit nearest_beside(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t known,
+                   const Hit& own, SignCounts& counts, Isa isa);
 
 // Something that casts shadows and stands between the ray's origin and the light; not found() if nothing does. For a
 // point light the ray's direction is light - origin and the light is at t = 1; for a directional one (light ==

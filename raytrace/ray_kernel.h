@@ -83,9 +83,10 @@ template <class F, class D, class Ask>
 }
 
 template <class F, class D>
-[[gnu::flatten]] void nearest_in_lanes(const Prepared& prepared, const Ray& ray, const Hit& after, Hit& best,
-                                       SignCounts& counts) {
+[[gnu::flatten]] void nearest_in_lanes(const Prepared& prepared, const Ray& ray, const Hit& after,
+                                       std::uint32_t except, Hit& best, SignCounts& counts) {
   ask_all<F, D>(prepared, ray, after.t, best.t, counts, [&](const auto& candidate, double) {
+    if (candidate.primitive == except) return best.t;
     const Hit hit = candidate.hit(prepared.scene, ray, after, counts);
     if (hit.found() && before(hit, best)) best = hit;
     return best.t;
@@ -138,6 +139,7 @@ template <class F, class D, int kRows>
     for (bits &= others; bits != 0; bits &= bits - 1)
       question.visitor.visit(question.visitor.context,
                              items[static_cast<std::uint32_t>(std::countr_zero(bits))]);
+    return !question.enough || !*question.enough;
   });
 }
 

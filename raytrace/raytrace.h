@@ -21,7 +21,8 @@ std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
 std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene, int threads = 0);
 
 // The picture, as scene.trace asks for (depth, cut, switches). Layers: kAllLayers. Throws Interrupted when
-// options.cancel is raised.
+// options.cancel is raised, and UsageError for options.primary with what only the tracer's own eye rays have: faults and
+// the layer cost.
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
 // The same picture, sample by sample by the recursion: the readable twin, for tests.

@@ -8,7 +8,7 @@
 namespace sidelight::raytrace {
 
 Departures departures(const Prepared& prepared, const Path& path, const Hit& hit, const Surface& surface,
-                      const glm::dvec3& from, SignCounts& counts) {
+                      const glm::dvec3& from, SignCounts& counts, bool lone) {
   const Scene& scene = prepared.scene;
   const Material& material = scene.materials[surface.material];
   const glm::dvec3 c2 = reflect_of(scene, material), c3 = refract_of(scene, material);
@@ -32,7 +32,8 @@ Departures departures(const Prepared& prepared, const Path& path, const Hit& hit
     refracted.start = hit;
   } else {
     refracted.kind = RayKind::refracted;
-    refracted.media = media_behind(prepared, path.ray, hit, surface, path.media, counts);
+    refracted.media = lone ? media_behind_lone(prepared, surface.object, surface.entering, path.media)
+                           : media_behind(prepared, path.ray, hit, surface, path.media, counts);
     const double eta = path.media.ior(scene) / refracted.media.ior(scene);
     const std::optional<glm::dvec3> t = refract_direction(d, surface.normal, surface.facing, eta);
     if (!t) {  // total internal reflection: one ray carries both weights

@@ -35,9 +35,9 @@ inline glm::dvec3 refract_of(const Scene& scene, const Material& material) {
 
 // The secondary rays that `path` gives rise to where it met `hit`, at `surface`; they start at `from`
 // (leaving_point). Of the surface object, material, normal, facing, entering and together are read. Depth and weight are
-// still those of `path`.
+// still those of `path`. `lone`: whether the hit is known to be lone (lone_hit.h).
 Departures departures(const Prepared& prepared, const Path& path, const Hit& hit, const Surface& surface,
-                      const glm::dvec3& from, SignCounts& counts);
+                      const glm::dvec3& from, SignCounts& counts, bool lone = false);
 
 // Takes c into the ray's weight, and the ray a step deeper if it is sent; false where it is too deep or weighs too
 // little.

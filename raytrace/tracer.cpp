@@ -125,8 +125,11 @@ Frame render_in(const Prepared& prepared, const Camera& camera, const RenderOpti
 }  // namespace
 
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
-  const bool plain = !options.faults.shadow_offset && !options.faults.float_precision;
-  return render_in<float>(prepared, camera, options, plain && (options.layers & layer_bit(Layer::cost)) == 0);
+  const bool in_waves = !options.faults.shadow_offset && !options.faults.float_precision &&
+                        (options.layers & layer_bit(Layer::cost)) == 0;
+  if (options.primary && !in_waves)
+    throw UsageError("surfaces found by another renderer go with no faults and no layer cost");
+  return render_in<float>(prepared, camera, options, in_waves);
 }
 Frame render_in_double(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
   return render_in<double>(prepared, camera, options, false);

@@ -6,7 +6,9 @@
 #include <glm/common.hpp>
 
 #include "common/model/visibility_float.h"
+#include "raytrace/eye_packets.h"
 #include "raytrace/kernels.h"
+#include "raytrace/lone_hit.h"
 
 namespace sidelight::raytrace {
 namespace {
@@ -77,12 +79,17 @@ Prepared::Prepared(const Scene& s, const Needs& n, int threads)
     all_cast_shadows = all_cast_shadows && material.casts_shadow;
   for (const Object& object : scene.objects)
     if (object.kind == ObjectKind::plane) planes.push_back(object.first_primitive);
+  reach = reach_of(*this, glm::dvec3(0));
+  secluded.resize(scene.spheres.size());
   if (!scene.trace.refraction || !needs[Need::refraction]) return;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     if (scene.objects[i].solid) {
       solids.push_back(i);
       bounds.push_back(bounds_of(scene, scene.objects[i]));
     }
+  for (const std::uint32_t solid : solids)
+    if (const Object& object = scene.objects[solid]; object.kind == ObjectKind::sphere)
+      secluded[object.first] = is_secluded(*this, object.first_primitive);
 }
 
 bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
@@ -92,13 +99,19 @@ bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
 Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
             Precision precision, Isa isa) {
   if (precision == Precision::in_float) return nearest_in_float(prepared, ray, after, counts, isa);
-  Hit best;
+  return nearest_beside(prepared, ray, after, kNone, {}, counts, isa);
+}
+
+Hit nearest_beside(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t known,
+                   const Hit& own, SignCounts& counts, Isa isa) {
+  Hit best = own;
   if (!is_finite(ray)) return best;
   for (const std::uint32_t primitive : prepared.planes) {
+    if (primitive == known) continue;
     const Hit hit = intersect(prepared.scene, primitive, ray, after, counts);
     if (hit.found() && before(hit, best)) best = hit;
   }
-  kernels_for(isa).nearest(prepared, ray, after, best, counts);
+  kernels_for(isa).nearest(prepared, ray, after, known, best, counts);
   return best;
 }
 

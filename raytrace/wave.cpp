@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "common/picture/tile_pixels.h"
+
 namespace sidelight::raytrace {
 
 Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_media,
@@ -13,6 +15,7 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       camera_(camera),
       eye_media_(eye_media),
       isa_(options.isa),
+      primary_(options.primary),
       secondary_(prepared.needs[Need::mirrors] || prepared.needs[Need::refraction]),
       shadows_(scene_.trace.shadows && !prepared.tables.lights.empty()),
       want_parts_((options.layers & kLocalParts) != 0),
@@ -28,7 +31,7 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
 
 void Wave::trace(const Rect& pixels, RenderStats& stats) {
   begin(pixels);
-  stats.rays.primary += samples();
+  if (!primary_) stats.rays.primary += samples();
   trace_level(0, stats);
   std::size_t depth = 0;
   while (true) {
@@ -106,14 +109,32 @@ Path Wave::path_of(const Level& level, std::size_t ray) const {
 
 // ---- Hits ----
 
+// The samples of this tile, out of those of the frame, which are kept pixel by pixel.
+void Wave::take_primary(std::vector<Hit>& hits) const {
+  const TilePixels tile(pixels_, camera_.n);
+  const auto per_pixel = static_cast<std::size_t>(camera_.n) * static_cast<std::size_t>(camera_.n);
+  hits.assign(samples(), {});
+  tile.for_each_pixel(*primary_, [&](std::size_t pixel, std::size_t first) {
+    std::size_t from = pixel * per_pixel;
+    tile.for_each_sample(first, [&](std::size_t sample) {
+      const std::uint32_t primitive = primary_->sample_primitive[from];
+      if (primitive != kNone) hits[sample] = {primary_->sample_depth[from], primitive};
+      ++from;
+    });
+  });
+}
+
 void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   const std::size_t size = eye ? samples() : level.rays.size();
-  if (eye) {
+  if (eye && primary_) {
+    take_primary(level.hits);
+  } else if (eye) {
     eye_packets_.trace(camera_.n * pixels_.x0, camera_.n * pixels_.y0, static_cast<int>(columns()),
                        camera_.n * pixels_.height(), level.hits, level.alone, stats.signs);
   } else {
     level.hits.resize(size);
-    for (std::size_t i = 0; i < size; ++i) level.hits[i] = first_shaded(level.rays[i], stats);
+    level.alone.assign(size, false);
+    for (std::size_t i = 0; i < size; ++i) level.hits[i] = first_shaded(level.rays[i], level.alone[i], stats);
   }
   level.color.assign(size, glm::vec3(scene_.background));
   if (!secondary_) return;
@@ -122,16 +143,36 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   level.cut_weight.assign(size, 0.0);
 }
 
+// The nearest hit; not that of the surface at which the ray starts and is through.
+Hit Wave::first_hit(const WaveRay& ray, RenderStats& stats) const {
+  const Path& path = ray.path;
+  Hit own;  // a flat surface is not met again, a ball is at its far side
+  if (ray.own != kNone) {
+    const PrimitiveRef ref = primitive_ref(scene_, ray.own);
+    if (ref.kind == ObjectKind::sphere) {
+      own = intersect(scene_, ray.own, path.ray, path.start, stats.signs);
+      if (ray.passes && own.found()) own = intersect(scene_, ray.own, path.ray, own, stats.signs);
+      if (own.found() && prepared_.secluded[ref.index]) return own;
+    }
+  }
+  return nearest_beside(prepared_, path.ray, path.start, ray.own, own, stats.signs, isa_);
+}
+
 // The first hit of a secondary ray that is not just a surface inside of a medium that goes on behind it.
-Hit Wave::first_shaded(WaveRay& ray, RenderStats& stats) const {
+Hit Wave::first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) const {
   Path& path = ray.path;
-  for (Hit hit = nearest(prepared_, path.ray, path.start, stats.signs, Precision::exact, isa_);;
+  for (Hit hit = first_hit(ray, stats);;
        hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
-    if (!hit.found() || prepared_.solids.empty() ||
-        !scene_.objects[scene_.primitive_object[hit.primitive]].solid)
-      return hit;
-    const Surface surface = surface_at(scene_, path.ray, hit, stats.signs);
-    const Media behind = media_behind(prepared_, path.ray, hit, surface, path.media, stats.signs);
+    alone = false;
+    if (!hit.found() || prepared_.solids.empty()) return hit;
+    const std::uint32_t object = scene_.primitive_object[hit.primitive];
+    if (!scene_.objects[object].solid) return hit;
+    const Lone lone = lone_hit(prepared_, path.ray, hit, isa_);
+    alone = lone != Lone::unknown;
+    const Media behind =
+        alone ? media_behind_lone(prepared_, object, lone == Lone::entering, path.media)
+              : media_behind(prepared_, path.ray, hit, surface_at(scene_, path.ray, hit, stats.signs),
+                             path.media, stats.signs);
     if (behind.current() != path.media.current()) return hit;
     path.media = behind;
   }
@@ -149,8 +190,8 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
   for (SurfaceBatch& batch : surfaces_) {
     batch.own_rays = !eye;
     batch.want_leaving = shadows_ || secondary_;
-    batch.has_t = !eye;
-    batch.want_t = eye && (want_t_ || batch.want_leaving);
+    batch.has_t = !eye || primary_;
+    batch.want_t = eye && !primary_ && (want_t_ || batch.want_leaving);
   }
   for (std::size_t i = 0; i < level.hits.size(); ++i) {
     const Hit& hit = level.hits[i];
@@ -209,13 +250,14 @@ void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces,
   batch.normal = surfaces.normal;
   batch.facing = surfaces.facing;
   batch.clearance = surfaces.clearance;
+  const bool eye = level.rays.empty();
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
     Place place;
     place.point = get(surfaces.point, i);
     place.facing = get(surfaces.facing, i);
     place.clearance = surfaces.clearance[i];
     const Hit& hit = level.hits[batch.ray[i]];
-    if (!level.alone.empty() && level.alone[batch.ray[i]] && hit.t < farthest_alone_) {
+    if (!level.alone.empty() && level.alone[batch.ray[i]] && (!eye || hit.t < farthest_alone_)) {
       put(batch.from, i, place.point + place.clearance * place.facing);  // leaving_point() of nothing near
       continue;
     }

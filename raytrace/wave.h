@@ -12,6 +12,7 @@
 #include "common/model/surface_batch.h"
 #include "common/picture/frame.h"
 #include "raytrace/eye_packets.h"
+#include "raytrace/lone_hit.h"
 #include "raytrace/secondary.h"
 #include "raytrace/shadow_packets.h"
 
@@ -33,6 +34,9 @@ struct WaveRay {
   Path path;
   glm::dvec3 c{0};
   std::uint32_t parent = 0;
+  // The primitive where it starts, if its own next hit there is found beforehand (first_hit), else kNone.
+  std::uint32_t own = kNone;
+  bool passes = false;  // at its start it crosses that primitive and no other, without a change of medium
 };
 
 // Rays of one depth that are traced together. Numbers are those of the rays; of the eye's level, of the tile's samples
@@ -41,7 +45,9 @@ struct Level {
   std::vector<WaveRay> rays;     // none at the eye's level: those are the camera's
   std::vector<WaveRay> waiting;  // rays of this depth whose turn comes later
   std::vector<Hit> hits;
-  std::vector<std::uint8_t> alone;  // where known: nothing else stands near the hit (EyePackets)
+  // Nothing else stands near the hit, where that is known: of the eye's level by EyePackets; of the others, of hits on
+  // solids, by lone_hit().
+  std::vector<std::uint8_t> alone;
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
   std::vector<double> cut_weight;                     // likewise
 };
@@ -69,10 +75,12 @@ class Wave {
   Ray ray_of(const Level& level, std::size_t ray) const;
 
   void begin(const Rect& pixels);
+  void take_primary(std::vector<Hit>& hits) const;
   void trace_level(std::size_t depth, RenderStats& stats);
   bool take_part(std::size_t depth);
   void find_hits(Level& level, bool eye, RenderStats& stats);
-  Hit first_shaded(WaveRay& ray, RenderStats& stats) const;
+  Hit first_hit(const WaveRay& ray, RenderStats& stats) const;
+  Hit first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) const;
   void find_surfaces(Level& level, bool eye, RenderStats& stats);
   void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
   void find_leaving_points(const Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
@@ -82,8 +90,12 @@ class Wave {
   ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
   void add_light(std::size_t light);
   void sum_up(Level& level, bool eye);
-  Surface surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray) const;
+  Surface surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray,
+                     bool lone) const;
+  bool is_lone(const Level& level, std::size_t ray, const Ray& way) const;
   void send_secondary(Level& level, Level& next, RenderStats& stats) const;
+  void send_from(Level& level, const HitBatch& batch, std::size_t i, const Path& path, Level& next,
+                 RenderStats& stats) const;
   void bring_back(const Level& level, Level& parent) const;
   HitBatch& next_batch();
 
@@ -92,6 +104,7 @@ class Wave {
   const Camera& camera_;
   const Media& eye_media_;
   Isa isa_;
+  const Frame* primary_;      // RenderOptions::primary
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;

@@ -60,14 +60,19 @@ struct Rect {
   bool operator==(const Rect&) const = default;
 };
 
+struct Frame;
+
 struct RenderOptions {
   int threads = 0;  // 0: all cores
   Isa isa = best_isa();
-  int tile = 32;                        // edge of a tile in pixels; changes no bit of the picture
-  LayerMask layers = 0;                 // which layers to fill
-  bool keep_samples = false;            // fill Frame::sample_primitive and sample_depth
-  Rect crop;                            // empty: the whole picture
-  Faults faults;                        // off; the references know none
+  int tile = 32;              // edge of a tile in pixels; changes no bit of the picture
+  LayerMask layers = 0;       // which layers to fill
+  bool keep_samples = false;  // fill Frame::sample_primitive and sample_depth
+  Rect crop;                  // empty: the whole picture
+  Faults faults;              // off; the references know none
+  // What each sample shows: another renderer's frame of the same camera and crop, with its samples kept, from which the
+  // ray tracer's waves take surfaces and depths in place of eye rays. Null: its own rays find them.
+  const Frame* primary = nullptr;
   std::atomic<bool>* cancel = nullptr;  // raised from outside: the renderer throws Interrupted soon after
   std::function<void(double done)> progress;  // called now and then, from any thread, with done in [0, 1]
 };

@@ -7,6 +7,7 @@
 #include "common/scene/build.h"
 #include "common/scene/toml.h"
 #include "tests/agreement/pictures.h"
+#include "tests/support/rays.h"
 #include "tests/support/scenes.h"
 #include "tests/tier.h"
 
@@ -172,6 +173,47 @@ TEST_CASE("waves are the recursion where edges run through rays") {
     PolygonMesh soup = mesh_of(positions, faces);
     for (PolygonMesh::Face& face : soup.faces) face.material = random.below(6);
     add_mesh(scene, soup, {}, {});
+    for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+      if (machine_has(isa)) check_same(scene, 37, 29, 1, isa);
+  }
+}
+
+// There the two points at which a ray meets a ball come together, and shadow rays graze it where they leave.
+TEST_CASE("waves are the recursion at the outline of glass balls") {
+  Random random(95);
+  for (std::uint64_t left = 3 + tier_count("rays_per_case") / 50000; left > 0; --left) {
+    CAPTURE(left);
+    Scene scene;
+    Material glass;
+    glass.name = "glass";
+    glass.ambient = glass.diffuse = glass.specular = glm::dvec3(0.3);
+    glass.reflect = glm::dvec3(0.2);
+    glass.refract = glm::dvec3(0.7);
+    glass.ior = random.uniform(0.7, 2);
+    add_material(scene, glass);
+    scene.trace.depth = 6;
+    scene.background = {0.1, 0.2, 0.3};
+    const glm::dvec3 center = random.in_box(3);
+    const double radius = random.log_uniform(0.01, 2);
+    add_sphere(scene, {center, radius, 0}, {});
+    // Inside it another one, or one that overlaps it, or touches it.
+    const double inner = random.uniform(0.1, 1) * radius;
+    add_sphere(scene, {center + random.uniform(0, 1) * (radius - inner) * random.direction(), inner, 0}, {});
+    add_plane(scene, {center - glm::dvec3(0, radius, 0), {0, 1, 0}, 0}, {});
+    scene.camera.eye = center + radius * random.uniform(1.5, 6) * random.direction();
+    const glm::dvec3 to_eye = scene.camera.eye - center, away = across(to_eye, random);
+    const double sine = radius / glm::length(to_eye);
+    const glm::dvec3 outline =
+        center + radius * (sine * glm::normalize(to_eye) + std::sqrt(1 - sine * sine) * away);
+    scene.camera.look_at = outline;
+    scene.camera.view_height = random.log_uniform(1e-12, 1e-1);
+    // In the plane that touches the ball there, or nearly.
+    for (int i = 0; i < 3; ++i)
+      scene.lights.push_back(lamp(outline +
+                                      radius * random.uniform(0.5, 4) * across(outline - center, random) +
+                                      random.log_uniform(1e-15, 1e-2) * random.direction(),
+                                  0.5));
+    scene.lights.push_back(sun(across(outline - center, random), 0.4));
     for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
       if (machine_has(isa)) check_same(scene, 37, 29, 1, isa);
   }

@@ -42,6 +42,7 @@ TEST_CASE("knobs: the standard value of each is one and changes nothing") {
     Setting setting;
     CHECK(knob.set(setting, std::string(knob.standard)));
     CHECK(setting.raster == nothing.raster);
+    CHECK(setting.from_raster == nothing.from_raster);
     CHECK(setting.n == nothing.n);
     CHECK(setting.faults == nothing.faults);
     CHECK_FALSE(knob.set(setting, "nonsense"));
@@ -107,6 +108,8 @@ TEST_CASE("knobs: mistakes of --set are named") {
   CHECK(refused({"depth=1", "depth=2"}, "twice"));
   CHECK(refused({"renderer=raster", "renderer=raytrace"}, "twice"));
   CHECK(refused({"renderer=raster", "depth=1"}, "raster has no such knob"));
+  CHECK(refused({"primary=raster", "precision=exact,float"}, "exact surfaces"));
+  CHECK(refused({"renderer=raster", "primary=raster"}, "raster has no such knob"));
   std::string many = "cut=0";
   for (int i = 1; i < 600; ++i) many += ",0." + std::to_string(i);
   CHECK(refused({many}, "more than 500"));

@@ -126,39 +126,25 @@ TEST_CASE("output: the statistics have the documented keys") {
   const Outcome outcome = here.run(render({"-o", "a.png", "--spp", "4", "--repeat", "2", "--stats", "-"}));
   REQUIRE(outcome.code == 0);
   const auto json = nlohmann::ordered_json::parse(outcome.out);
-  CHECK(keys(json) == std::vector<std::string>{"renderer",
-                                               "scene",
-                                               "scene_hash",
-                                               "version",
-                                               "width",
-                                               "height",
-                                               "spp",
-                                               "threads",
-                                               "isa",
-                                               "triangles",
-                                               "spheres",
-                                               "planes",
-                                               "load_ms",
-                                               "build_ms",
-                                               "frame_ms.min",
-                                               "frame_ms.median",
-                                               "frame_ms.max",
-                                               "frame_ms.runs",
-                                               "cpu_ms.min",
-                                               "cpu_ms.median",
-                                               "cpu_ms.max",
-                                               "rays.primary",
-                                               "rays.shadow",
-                                               "rays.reflection",
-                                               "rays.refraction",
-                                               "tests",
-                                               "exact.filtered",
-                                               "exact.double",
-                                               "exact.exact",
-                                               "self_shadowed",
-                                               "cut_weight",
+  CHECK(keys(json) == std::vector<std::string>{"renderer",        "primary",
+                                               "scene",           "scene_hash",
+                                               "version",         "width",
+                                               "height",          "spp",
+                                               "threads",         "isa",
+                                               "triangles",       "spheres",
+                                               "planes",          "load_ms",
+                                               "build_ms",        "frame_ms.min",
+                                               "frame_ms.median", "frame_ms.max",
+                                               "frame_ms.runs",   "cpu_ms.min",
+                                               "cpu_ms.median",   "cpu_ms.max",
+                                               "rays.primary",    "rays.shadow",
+                                               "rays.reflection", "rays.refraction",
+                                               "tests",           "exact.filtered",
+                                               "exact.double",    "exact.exact",
+                                               "self_shadowed",   "cut_weight",
                                                "peak_memory_mb"});
   CHECK(json["renderer"] == "raytrace");
+  CHECK(json["primary"] == "rays");
   CHECK(json["width"] == 16);
   CHECK(json["height"] == 12);
   CHECK(json["spp"] == 4);
@@ -195,6 +181,7 @@ TEST_CASE("output: compare writes its nine files and the documented keys") {
   const auto json = nlohmann::ordered_json::parse(text);
   CHECK(keys(json) == std::vector<std::string>{"width",
                                                "height",
+                                               "primary",
                                                "covered",
                                                "visibility_mismatches",
                                                "unexplained",
@@ -268,4 +255,41 @@ TEST_CASE("help: fits a screen for every verb and its examples run") {
     }
     CHECK(examples == 2);
   }
+}
+
+TEST_CASE("output: surfaces found by the z-buffer give the same picture, which says so") {
+  const Workplace here;
+  REQUIRE(here.run(render({"-q", "-o", "rays.exr", "--layers", "depth,primitive,shadow"})).code == 0);
+  const Outcome outcome = here.run(render({"-q", "-o", "raster.exr", "--layers", "depth,primitive,shadow",
+                                           "--primary", "raster", "--stats", "-"}));
+  REQUIRE(outcome.code == 0);
+  CHECK(here.run({"diff", "rays.exr", "raster.exr"}).code == 0);
+  const auto json = nlohmann::ordered_json::parse(outcome.out);
+  CHECK(json["renderer"] == "raytrace");
+  CHECK(json["primary"] == "raster");
+  CHECK(json["rays"]["primary"] == 0);
+  CHECK(json["stages_ms"]["raster"].get<double>() + json["stages_ms"]["raytrace"].get<double>() <=
+        json["frame_ms"]["max"]);
+
+  const Outcome compared = here.run(compare_into("out", {"--primary", "raster"}));
+  CHECK(compared.code == 0);
+  CHECK(compared.err.find("took the z-buffer's surfaces") != std::string::npos);
+  CHECK(nlohmann::ordered_json::parse(read_bytes(here / "out/compare.json"))["primary"] == "raster");
+}
+
+TEST_CASE("exit code 2: surfaces found by the z-buffer where they cannot serve") {
+  const Workplace here;
+  const auto refused = [&](const Arguments& more, const std::string& word) {
+    const Outcome outcome = here.run(more + Arguments{"-q", "--primary", "raster"});
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(lines(outcome.err).size() == 1);
+    CHECK(outcome.err.find(word) != std::string::npos);
+    CHECK(here.made().empty());
+  };
+  refused(render({"-o", "a.png", "--renderer", "raster"}), "is for the renderer 'raytrace'");
+  refused(render({"-o", "a.png", "--renderer", "raytrace-reference"}), "is for the renderer 'raytrace'");
+  refused(render({"-o", "a.png", "--shadow-offset", "0.1"}), "no faults on purpose");
+  refused(compare_into("out", {"--snap-bits", "2"}), "no faults on purpose");
+  refused(render({"-o", "a.exr", "--layers", "cost"}), "with --primary raster does not make");
 }

@@ -25,6 +25,10 @@ bool set_renderer(Setting& setting, const std::string& value) {
   setting.raster = value == "raster";
   return setting.raster || value == "raytrace";
 }
+bool set_primary(Setting& setting, const std::string& value) {
+  setting.from_raster = value == "raster";
+  return setting.from_raster || value == "rays";
+}
 bool set_samples(Setting& setting, const std::string& value) {
   setting.n = samples_per_edge(number(value, 1, 4096).value_or(0));
   return setting.n > 0;
@@ -91,6 +95,8 @@ const std::array kKnobs{
          "unorm16,unorm24,float,reversed", "exact, unorm16, unorm24, float or reversed", set_depth_format},
     Knob{"snap-bits", ErrorKind::arithmetic, true, false, "exact", "4", "0,2,4,6,8,12",
          "binary places of a vertex on the screen, 0 to 16, or exact", set_snap_bits},
+    Knob{"primary", kTimeOnly, false, true, "rays", "", "raster",
+         "rays or raster: who finds what the ray tracer's samples show", set_primary},
     Knob{"threads", kTimeOnly, true, true, "all", "", "1,2,4", "1 to 1024, or all", set_threads},
     Knob{"isa", kTimeOnly, true, false, "best", "scalar", "scalar,avx2,avx512",
          "scalar, avx2, avx512 (if this machine has it) or best", set_isa},
@@ -255,6 +261,10 @@ std::vector<Config> product_configs(const std::vector<std::string>& texts) {
     add_products(choices, 1, standard_config(renderer == "raster"), renderer == "raster", out);
   if (out.size() > kMostConfigs)
     throw UsageError(fmt::format("--set asks for more than {} configurations", kMostConfigs));
+  for (const Config& config : out)
+    if (const Setting setting = setting_of(config); setting.from_raster && setting.faults.float_precision)
+      throw UsageError(
+          "--set: primary=raster takes the z-buffer's exact surfaces, so not with precision=float");
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/scene/tessellate.h"
+#include "viewer/bench/raster_primary.h"
 
 namespace sidelight {
 
@@ -47,6 +48,13 @@ const raytrace::Prepared& Stage::prepared_for(const Model& model) {
   return *it.for_raytrace;
 }
 
+// The z-buffer has no use for the switches.
+const raster::Prepared& Stage::prepared_for_raster(std::optional<int> tessellate) {
+  Form& it = form(tessellate, false);
+  if (!it.for_raster) it.for_raster = raster::prepare(it.scene);
+  return *it.for_raster;
+}
+
 Frame Stage::render(const Setting& setting, const Camera& camera, bool keep_samples) {
   RenderOptions options;
   options.threads = setting.threads;
@@ -57,10 +65,10 @@ Frame Stage::render(const Setting& setting, const Camera& camera, bool keep_samp
   options.keep_samples = keep_samples;
   options.cancel = cancel_;
   const Model model = model_of(setting);
-  if (!setting.raster) return raytrace::render(prepared_for(model), camera, options);
-  Form& it = form(model.tessellate, false);  // the z-buffer has no use for the switches
-  if (!it.for_raster) it.for_raster = raster::prepare(it.scene);
-  return raster::render(*it.for_raster, camera, options);
+  if (setting.raster) return raster::render(prepared_for_raster(model.tessellate), camera, options);
+  const raytrace::Prepared& prepared = prepared_for(model);
+  if (!setting.from_raster) return raytrace::render(prepared, camera, options);
+  return render_from_raster(prepared_for_raster(model.tessellate), prepared, camera, options);
 }
 
 double Stage::trial_steps(const Setting& setting) {
@@ -71,10 +79,8 @@ double Stage::trial_steps(const Setting& setting) {
 
 void Stage::build_again(const Setting& setting) {
   const Scene& scene = form(setting.faults.tessellate, false).scene;
-  if (setting.raster)
-    raster::prepare(scene, setting.threads);
-  else
-    raytrace::prepare(scene, setting.threads);
+  if (setting.raster || setting.from_raster) raster::prepare(scene, setting.threads);
+  if (!setting.raster) raytrace::prepare(scene, setting.threads);
 }
 
 Frame Stage::render_in_double(const Model& model, const Camera& camera,

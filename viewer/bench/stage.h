@@ -48,8 +48,10 @@ class Stage {
   // Of a pixel of that picture, tried out as its recursion takes them. 0 for the z-buffer.
   double trial_steps(const Setting& setting);
   // What a renderer does once a scene. Settings with the same key share it.
-  using BuildKey = std::tuple<bool, std::optional<int>>;  // raster, tessellate
-  static BuildKey build_key(const Setting& setting) { return {setting.raster, setting.faults.tessellate}; }
+  using BuildKey = std::tuple<bool, bool, std::optional<int>>;  // raster, from_raster, tessellate
+  static BuildKey build_key(const Setting& setting) {
+    return {setting.raster, setting.from_raster, setting.faults.tessellate};
+  }
   void build_again(const Setting& setting);  // for its time only; what is kept stays
 
   // The ray tracer's picture of the model with light in double; `progress`, which may be empty, hears how far it is.
@@ -67,6 +69,7 @@ class Stage {
   Frame render(const Setting& setting, const Camera& camera, bool keep_samples);
   Form& form(std::optional<int> tessellate, bool local);
   const raytrace::Prepared& prepared_for(const Model& model);
+  const raster::Prepared& prepared_for_raster(std::optional<int> tessellate);
 
   Scene scene_;
   std::atomic<bool>* cancel_;

@@ -9,6 +9,7 @@
 #include "viewer/commands/all_modes.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/faulty.h"
+#include "viewer/commands/primary_flag.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
 #include "viewer/report/compare_report.h"
@@ -31,6 +32,7 @@ std::string comparison_json(const Job& job, const Comparison& result, const Spoi
                             const TimedFrame& rastered, const TimedFrame& traced) {
   nlohmann::ordered_json json{{"width", result.width},
                               {"height", result.height},
+                              {"primary", job.flags.primary},
                               {"covered", result.covered},
                               {"visibility_mismatches", result.visibility_mismatches},
                               {"unexplained", result.unexplained},
@@ -102,7 +104,8 @@ std::string report(const Job& job, const Comparison& result, const TimedFrame& r
 }
 
 // What a person wants to read first; on stderr, as stdout is for data.
-void print_summary(const Comparison& result, const Spoiled& spoiled, const std::string& folder) {
+void print_summary(const Job& job, const Comparison& result, const Spoiled& spoiled,
+                   const std::string& folder) {
   fmt::print(stderr, "{}x{}: {} visibility mismatches, {} unexplained pixels\n", result.width, result.height,
              result.visibility_mismatches, result.unexplained);
   const auto line = [](const char* name, const Cause& cause) {
@@ -116,6 +119,8 @@ void print_summary(const Comparison& result, const Spoiled& spoiled, const std::
         stderr,
         "  the fault {} spoils {} pixels, which are in neither count; {} of them show another surface\n",
         fault_name(each.fault), each.pixels, each.other_surface);
+  if (job.flags.from_raster())
+    fmt::print(stderr, "  the ray tracer took the z-buffer's surfaces: that they agree says nothing\n");
   if (result.visibility_mismatches > 0)
     fmt::print(stderr, "  first mismatch at pixel {},{}\n", result.mismatch_x, result.mismatch_y);
   if (result.unexplained > 0)
@@ -126,7 +131,7 @@ void print_summary(const Comparison& result, const Spoiled& spoiled, const std::
 int run_compare(const CompareFlags& flags) {
   Job job = load_job(flags.job);
   const Renderer& raster = *find_renderer("raster");
-  const Renderer& raytrace = *find_renderer("raytrace");
+  const Renderer& raytrace = with_primary(job, *find_renderer("raytrace"));
   job.options.layers = raytrace.layers;
   job.options.keep_samples = true;
   check_memory(job, job.options.faults.any() ? kSpoiledPairs : 1);
@@ -140,7 +145,7 @@ int run_compare(const CompareFlags& flags) {
   write_text_file(flags.folder + "/compare.json", comparison_json(job, result, spoiled, rastered, traced));
   write_text_file(flags.folder + "/report.html", report(job, result, rastered, traced));
   if (flags.all_modes) write_all_modes(job, flags.folder + "/modes", rastered.frame, traced.frame);
-  if (!flags.job.quiet) print_summary(result, spoiled, printable(flags.folder));
+  if (!flags.job.quiet) print_summary(job, result, spoiled, printable(flags.folder));
   return result.agrees() ? 0 : 1;
 }
 
@@ -151,6 +156,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("compare", "both pictures of a scene, their difference, and the reason for it");
   add_job_flags(*verb, flags->job);
+  add_primary_flag(*verb, flags->job);
   add_fault_flags(*verb, flags->job.faults);
   verb->add_option("-o,--output", flags->folder, "folder DIR for the report, the pictures and compare.json")
       ->required();

@@ -189,6 +189,7 @@ Metadata job_metadata(const Job& job, const std::string& renderer) {
                     {"shadows", on(trace.shadows)},
                     {"reflection", on(trace.reflection)},
                     {"refraction", on(trace.refraction)}};
+  if (job.flags.from_raster()) metadata.emplace_back("primary", job.flags.primary);
   if (job.options.faults.any()) metadata.emplace_back("faults", job.options.faults.text());
   return metadata;
 }

@@ -30,8 +30,11 @@ struct JobFlags {
   bool no_shadows = false, no_reflection = false, no_refraction = false, local = false;
   bool quiet = false;            // -q
   bool no_times = false;         // --no-times
+  std::string primary = "rays";  // --primary, where the verb has it: or "raster"
   FaultFlags faults;             // where the verb has them
   std::vector<std::string> set;  // --set KEY=VALUE, where the verb has it
+
+  bool from_raster() const { return primary == "raster"; }
 };
 
 // Adds the flags to a verb, with their help texts: all of them, those that say how a scene is rendered, or -q alone.
@@ -51,8 +54,8 @@ struct Job {
   Scene scene;                         // overrides applied; its title says which faults are on
   std::optional<Scene> untessellated;  // the same with its spheres, where --tessellate took them
   Camera camera;
-  RenderOptions options;  // layers and keep_samples are the verb's to set
-  std::vector<std::string> files;      // that were read: the scene's, then those of its meshes
+  RenderOptions options;           // layers and keep_samples are the verb's to set
+  std::vector<std::string> files;  // that were read: the scene's, then those of its meshes
   double load_ms = 0;
 };
 

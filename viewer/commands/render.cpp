@@ -7,6 +7,7 @@
 
 #include "viewer/bench/front.h"
 #include "viewer/commands/commands.h"
+#include "viewer/commands/primary_flag.h"
 #include "viewer/commands/progress.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
@@ -42,8 +43,8 @@ LayerMask parse_layers(const RenderFlags& flags, const Renderer& renderer) {
     }
   }
   if (mask & ~renderer.layers)
-    throw UsageError(fmt::format("--layers {}: the renderer '{}' does not make all of these", flags.layers,
-                                 renderer.name));
+    throw UsageError(fmt::format("--layers {}: the renderer '{}'{} does not make all of these", flags.layers,
+                                 renderer.name, flags.job.from_raster() ? " with --primary raster" : ""));
   return mask;
 }
 
@@ -54,6 +55,7 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
   frame["runs"] = frame_ms.size();
   nlohmann::ordered_json json{
       {"renderer", renderer.name},
+      {"primary", renderer.name.substr(0, 6) == "raster" ? "raster" : job.flags.primary},
       {"scene", printable(job.flags.scene, 1000)},
       {"scene_hash", job.scene.hash},
       {"version", SIDELIGHT_VERSION},
@@ -86,18 +88,16 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
 }
 
 int run_render(const RenderFlags& flags) {
-  const Renderer* renderer = find_renderer(flags.renderer);
   const bool exr = ends_with(flags.output, ".exr"), png = ends_with(flags.output, ".png");
   if (!exr && !png) throw UsageError("-o wants a file that ends in .exr or .png; got '" + flags.output + "'");
   if (!exr && !flags.layers.empty())
     throw UsageError("--layers needs an .exr file: a .png holds the colour only");
   if (!png && flags.linear16)
     throw UsageError("--linear16 is for .png files; an .exr is linear float already");
-  const LayerMask layers = parse_layers(flags, *renderer);
-
   Job job = load_job(flags.job);
+  const Renderer* renderer = &with_primary(job, *find_renderer(flags.renderer));
   check_makes_faults(renderer->name, job.options.faults);
-  job.options.layers = layers;
+  job.options.layers = parse_layers(flags, *renderer);
   check_memory(job);
 
   ProgressBar bar(std::string(renderer->label), flags.job.quiet);
@@ -148,6 +148,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
       ->type_name("NAME")
       ->check(CLI::IsMember(names).description(""))
       ->capture_default_str();
+  add_primary_flag(*verb, flags->job);
   verb->add_option("--layers", flags->layers,
                    "channels beside the colour, comma-separated, of those named below");
   verb->add_flag("--linear16", flags->linear16, "write the .png linear with 16 bits");

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "raster/raster.h"
-#include "raytrace/raytrace.h"
+#include "viewer/bench/raster_primary.h"
 #include "viewer/commands/progress.h"
 
 namespace sidelight {
@@ -77,8 +76,21 @@ struct Reference {
   }
 };
 
+struct PreparedBoth {
+  std::shared_ptr<const raster::Prepared> finds;
+  std::shared_ptr<const raytrace::Prepared> traces;
+};
+std::shared_ptr<const PreparedBoth> prepare_both(const Scene& scene, int threads) {
+  return std::make_shared<const PreparedBoth>(
+      PreparedBoth{raster::prepare(scene, threads), raytrace::prepare(scene, threads)});
+}
+Frame render_both(const PreparedBoth& prepared, const Camera& camera, const RenderOptions& options) {
+  return render_from_raster(*prepared.finds, *prepared.traces, camera, options);
+}
+
 using Raster = Fast<raster::prepare, raster::render>;
 using Raytrace = Fast<raytrace::prepare, raytrace::render>;
+using RaytraceFromRaster = Fast<prepare_both, render_both>;
 using RasterReference = Reference<raster::render_reference>;
 using RaytraceReference = Reference<raytrace::render_reference>;
 
@@ -91,6 +103,9 @@ const std::array<Renderer, 4> kRenderers{{
     {"raytrace-reference", "ray tracer, reference", kRaytraceLayers, RaytraceReference::once,
      RaytraceReference::many},
 }};
+
+const Renderer kRaytraceFromRaster{"raytrace", "ray tracer, from the z-buffer", kRaytraceLayers,
+                                   RaytraceFromRaster::once, RaytraceFromRaster::many};
 
 const Renderer* find_renderer(std::string_view name) {
   const auto at =

@@ -17,15 +17,18 @@ struct TimedFrame {
 
 struct Renderer {
   std::string_view name;
-  std::string_view label;          // for progress and captions
-  LayerMask layers;                // what it can make
+  std::string_view label;  // for progress and captions
+  LayerMask layers;        // what it can make
   TimedFrame (*render)(const Job& job, const Camera& camera, const RenderOptions& options);
   // Renders `repeat` times after one warm-up with the eye moving, then the picture itself; times go to the vectors.
-  TimedFrame (*measure)(const Job& job, const RenderOptions& options, int repeat, std::vector<double>& frame_ms,
-                        std::vector<double>& cpu_ms);
+  TimedFrame (*measure)(const Job& job, const RenderOptions& options, int repeat,
+                        std::vector<double>& frame_ms, std::vector<double>& cpu_ms);
 };
 
-extern const std::array<Renderer, 4> kRenderers;   // raster, raytrace, raster-reference, raytrace-reference
+extern const std::array<Renderer, 4> kRenderers;  // raster, raytrace, raster-reference, raytrace-reference
+
+// raytrace with the z-buffer's surfaces in place of eye rays (--primary raster): the same picture, without the layer cost.
+extern const Renderer kRaytraceFromRaster;
 
 // Null for an unknown name.
 const Renderer* find_renderer(std::string_view name);

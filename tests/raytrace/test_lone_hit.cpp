@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Of a hit that is called lone everything is true that is then not searched for: brute force finds no other surface that
+// is crossed with it, none near to where rays leave, and that a ray into the surface passes it first and alone.
+#include <doctest/doctest.h>
+
+#include "common/model/surface.h"
+#include "raytrace/lone_hit.h"
+#include "tests/support/rays.h"
+#include "tests/support/scenes.h"
+#include "tests/tier.h"
+
+using namespace sidelight;
+using namespace sidelight::test;
+using raytrace::Lone;
+using raytrace::Prepared;
+
+namespace {
+
+// Closed meshes and balls of glass, and next to their surfaces, at all distances down to rounding, sheets, balls and planes.
+Scene crowded_scene(Random& random) {
+  Scene scene = empty_scene();
+  scene.materials[0].refract = glm::dvec3(0.5);
+  const double far = random.uniform() < 0.3 ? random.log_uniform(1, 1e6) : 0;
+  std::vector<glm::dvec3> crowd;  // points on surfaces
+  for (int i = 0; i < 3; ++i) {
+    PolygonMesh mesh = i == 0 ? octahedron({0, 0, 0}, 1) : star_sphere(8, 9, 0.3, random.bits());
+    const glm::dvec3 at = far + random.in_box(2);
+    for (glm::dvec3& p : mesh.positions) p = at + p;
+    for (std::size_t k = 0; k < 3; ++k)
+      crowd.push_back((mesh.positions[k] + mesh.positions[k + 1] + mesh.positions[k + 2]) / 3.0);
+    crowd.push_back(mesh.positions[0]);
+    add_mesh(scene, mesh, {}, {});
+  }
+  for (int i = 0; i < 4; ++i) {
+    const Sphere ball{far + random.in_box(2), random.log_uniform(1e-3, 1), 0};
+    crowd.push_back(ball.center + ball.radius * random.direction());
+    add_sphere(scene, ball, {});
+  }
+  for (const glm::dvec3& on : crowd) {
+    const glm::dvec3 aside = random.log_uniform(1e-16, 0.1) * random.direction();
+    if (random.uniform() < 0.3) {
+      const glm::dvec3 toward = random.log_uniform(1e-3, 0.3) * random.direction();
+      add_sphere(scene, {on + aside + toward, glm::length(toward), 0}, {});
+    } else {
+      const glm::dvec3 p = on + aside;
+      add_mesh(
+          scene,
+          mesh_of({p + 0.2 * random.direction(), p + 0.2 * random.direction(), p + 0.2 * random.direction()},
+                  {{0, 1, 2}}),
+          {}, {});
+    }
+  }
+  if (random.uniform() < 0.5) add_plane(scene, {crowd[random.below(12)], random.direction(), 0}, {});
+  return scene;
+}
+
+// All hits of all primitives but `own` at a depth up to `last`.
+std::uint64_t others_up_to(const Scene& scene, const Ray& ray, std::uint32_t own, double last) {
+  SignCounts counts;
+  std::uint64_t others = 0;
+  for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
+    if (primitive == own) continue;
+    const Hit hit = intersect(scene, primitive, ray, kRayStart, counts);
+    others += hit.found() && hit.t <= last;
+  }
+  return others;
+}
+
+// A ray into the surface from where rays start that leave.
+void check_passes(const Prepared& prepared, const Place& place, const Hit& hit, Random& random) {
+  const Scene& scene = prepared.scene;
+  SignCounts counts;
+  const glm::dvec3 into = -outward(place.facing, random);
+  if (!raytrace::is_steep(into, place.facing)) return;
+  const Ray ray = make_ray(place.point + place.clearance * place.facing, into);
+  const Hit passed = intersect(scene, hit.primitive, ray, kRayStart, counts);
+  const Place there = passed.found() ? locate(scene, ray, passed, counts) : Place{};
+  CHECK(others_up_to(scene, ray, hit.primitive, passed.found() ? there.together : place.clearance) == 0);
+  if (!passed.found()) return;
+  CHECK(there.entering == place.entering);
+  const Hit again = intersect(scene, hit.primitive, ray, passed, counts);
+  CHECK((!again.found() || again.t > there.together));
+}
+
+void check_lone(const Prepared& prepared, const Ray& ray, const Hit& hit, Lone lone, Random& random) {
+  const Scene& scene = prepared.scene;
+  SignCounts counts;
+  const Place place = locate(scene, ray, hit, counts);
+  CHECK((lone == Lone::entering) == place.entering);
+  const std::vector<Hit> together = hits_between(prepared, ray, hit, place.together, counts);
+  CHECK(together == std::vector<Hit>{hit});
+  std::uint64_t near = 0;
+  for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive)
+    near += stands_near(scene, primitive, ray, hit, place, counts);
+  CHECK(near == 0);
+  check_passes(prepared, place, hit, random);
+}
+
+}  // namespace
+
+TEST_CASE("lone hits: brute force finds nothing else there") {
+  Random random(94);
+  std::uint64_t hits = 0, lone_hits = 0;
+  for (std::uint64_t left = 1 + tier_count("rays_per_case") / 2000; left > 0; --left) {
+    const Scene scene = crowded_scene(random);
+    const Prepared prepared(scene);
+    SignCounts counts;
+    for (int i = 0; i < 100; ++i) {
+      const auto& triangle =
+          scene.triangles[random.below(static_cast<std::uint32_t>(scene.triangles.size()))];
+      // At a triangle, or past its edge and vertices, as near as it comes.
+      const double a = random.uniform(), b = random.uniform() < 0.3 ? random.log_uniform(1e-17, 1) : a;
+      const glm::dvec3 target =
+          glm::mix(scene.positions[triangle.vertex[0]],
+                   glm::mix(scene.positions[triangle.vertex[1]], scene.positions[triangle.vertex[2]], a), b);
+      const glm::dvec3 from = target + random.log_uniform(1e-3, 1e3) * random.direction();
+      const Ray ray = make_ray(from, random.uniform() < 0.5 ? target - from : random.direction());
+      for (Hit hit = nearest(prepared, ray, kRayStart, counts); hit.found();
+           hit = nearest(prepared, ray, hit, counts)) {
+        const Lone lone = lone_hit(prepared, ray, hit);
+        for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+          if (machine_has(isa)) CHECK(lone_hit(prepared, ray, hit, isa) == lone);
+        ++hits;
+        if (lone == Lone::unknown) continue;
+        ++lone_hits;
+        check_lone(prepared, ray, hit, lone, random);
+      }
+    }
+  }
+  CHECK(lone_hits > hits / 2);
+}
+
+TEST_CASE("lone hits: inside a secluded ball brute force finds its far side") {
+  Random random(96);
+  std::uint64_t secluded = 0;
+  for (std::uint64_t left = 20 + tier_count("rays_per_case") / 1000; left > 0; --left) {
+    const Scene scene = crowded_scene(random);
+    const Prepared prepared(scene);
+    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
+      if (!prepared.secluded[i]) continue;
+      ++secluded;
+      const Sphere& ball = scene.spheres[i];
+      SignCounts counts;
+      for (int k = 0; k < 10; ++k) {
+        const Ray ray =
+            make_ray(ball.center + ball.radius * random.uniform() * random.direction(), random.direction());
+        const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
+        const PrimitiveRef met = primitive_ref(scene, hit.primitive);
+        CHECK((met.kind == ObjectKind::sphere && met.index == i));
+      }
+    }
+  }
+  CHECK(secluded > 20);
+}
