@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The z-buffer renderer, stage by stage: bin the primitives, then for each tile draw them into its z-buffer, and shade
 // what is visible once. Object order: the z-buffer never asks what else a ray might meet.
+#include <algorithm>
 #include <vector>
 
 #include "common/clock.h"
@@ -31,6 +32,12 @@ Frame render_snapped(const Prepared& prepared, const Camera& camera, RenderOptio
   const Scene scene = snapped(prepared.scene, camera, *options.faults.snap_bits);
   options.faults.snap_bits.reset();
   return render(*prepare(scene), camera, options);
+}
+
+constexpr int kTileSamples = 96;  // along the edge of a tile, at most: its z-buffer stays in the second cache
+
+int tile_edge(const RenderOptions& options, int n) {
+  return std::max(1, std::min(options.tile, kTileSamples / n));
 }
 
 struct Job {
