@@ -14,10 +14,9 @@ namespace sidelight::raster {
 // Triangles on their way through set-up together: a structure of arrays, corner by corner.
 struct TriangleChunk {
   static constexpr int kSize = 256;
-  // What becomes of a triangle: nothing; rasterized at once; drawn by the tiles, front faces before back faces; as that,
-  // if it has a side, which the filter cannot tell; set up in double.
-  enum Kind : std::int32_t { kNothing, kTiny, kFront, kBack, kDoubtful, kLarge };
-  static constexpr int kTinyBox = 3;  // samples along the edge of a tiny triangle's box, at most
+  // What becomes of a triangle: nothing more; drawn by the tiles, front faces before back faces; as that, if it has a side,
+  // which the filter cannot tell; set up in double.
+  enum Kind : std::int32_t { kNothing, kFront, kBack, kDoubtful, kLarge };
 
   template <class T>
   using PerTriangle = std::array<T, kSize>;
@@ -32,21 +31,20 @@ struct TriangleChunk {
   alignas(64) PerTriangle<std::int32_t> kind;
 };
 
-// The samples that tiny triangles cover, and those that must be asked.
+// Tiny triangles are rasterized by set_up(): the samples that they cover, and those that must be asked.
 struct TinyFragments {
-  static constexpr int kTriangles = 64;  // at a time, at most
-  static constexpr int kMost = kTriangles * TriangleChunk::kTinyBox * TriangleChunk::kTinyBox;
+  static constexpr int kBox = 3;  // samples along the edge of a tiny triangle's box, at most
+  static constexpr int kMost = TriangleChunk::kSize * kBox * kBox;
   std::size_t covered = 0, doubtful = 0;
-  std::array<ScreenFragment, kMost + 16> fragment;  // .primitive: place in the chunk
-  std::array<ScreenFragment, kMost + 16> doubt;
+  std::array<ScreenFragment, kMost> fragment;  // .primitive: place in the chunk
+  std::array<ScreenFragment, kMost> doubt;
+  std::uint64_t triangles = 0, tests = 0;  // how many they are, and the samples of their boxes
 };
 
 struct Kernels {
   void (*project)(const ScreenSpace& space, const glm::dvec3* from, ScreenVertex* to, int count);
-  void (*set_up)(const ScreenSpace& space, const SampleBox& window, TriangleChunk& chunk);
-  // Of the chunk, those in queue[0, size), size <= TinyFragments::kTriangles.
-  void (*rasterize_tiny)(const ScreenSpace& space, const TriangleChunk& chunk, const std::int32_t* queue,
-                         int size, TinyFragments& out);
+  void (*set_up)(const ScreenSpace& space, const SampleBox& window, TriangleChunk& chunk,
+                 TinyFragments& tiny);
   void (*draw_small)(const TileView& tile, const ScreenSpace& space, const ScreenVertex* vertices,
                      const Corners3* corners, const SmallTriangle* triangles, std::size_t count);
   // Brings TileView::farthest up to date.

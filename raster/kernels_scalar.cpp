@@ -6,12 +6,8 @@
 namespace sidelight::raster {
 
 const Kernels& kernels_scalar() {
-  static constexpr Kernels kernels{project_all<double>,
-                                   set_up_chunk<float>,
-                                   rasterize_tiny_queue<float>,
-                                   draw_small_triangles<float>,
-                                   find_farthest_of_blocks<float>,
-                                   draw_large_surface<float>};
+  static constexpr Kernels kernels{project_all<double>, set_up_chunk<float>, draw_small_triangles<float>,
+                                   find_farthest_of_blocks<float>, draw_large_surface<float>};
   return kernels;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The z-buffer renderer, stage by stage: bin the primitives, then for each tile draw them into its z-buffer, and shade
 // what is visible once. Object order: the z-buffer never asks what else a ray might meet.
+#include <algorithm>
 #include <vector>
 
 #include "common/clock.h"
@@ -33,6 +34,12 @@ Frame render_snapped(const Prepared& prepared, const Camera& camera, RenderOptio
   return render(*prepare(scene), camera, options);
 }
 
+constexpr int kTileSamples = 96;  // along the edge of a tile, at most: its z-buffer stays in the second cache
+
+int tile_edge(const RenderOptions& options, int n) {
+  return std::max(1, std::min(options.tile, kTileSamples / n));
+}
+
 struct Job {
   const Prepared& prepared;
   const Camera& camera;
@@ -41,43 +48,48 @@ struct Job {
   int threads;
 };
 
+// What each thread counts as it goes, in lines of the cache that no other writes to.
+struct alignas(64) ThreadCounts {
+  SignCounts signs;
+};
+struct alignas(64) ThreadTimes {
+  double draw_ms = 0, shade_ms = 0;
+};
+
 // shade_tile(tile, thread, resolve, counts) for every tile of the picture.
 template <class ShadeTile>
 void for_each_tile(const Job& job, Frame& frame, const ShadeTile& shade_tile) {
   const RenderOptions& options = job.options;
   const auto threads = static_cast<std::size_t>(job.threads);
-  std::vector<SignCounts> counts(threads);
+  std::vector<ThreadCounts> counts(threads);
   std::vector<TileResolve> resolves(threads, {job.prepared, job.camera, options});
   std::atomic<int> done{0};
   parallel_for(job.grid.count(), job.threads, [&](int tile, int thread) {
     if (options.cancel && *options.cancel) throw Interrupted();
     TileResolve& resolve = resolves[static_cast<std::size_t>(thread)];
-    shade_tile(tile, thread, resolve, counts[static_cast<std::size_t>(thread)]);
+    shade_tile(tile, thread, resolve, counts[static_cast<std::size_t>(thread)].signs);
     if (options.progress) options.progress(static_cast<double>(++done) / job.grid.count());
   });
-  for (const SignCounts& of_thread : counts)
-    frame.stats.add_counts({.rays = {}, .signs = of_thread, .stages = {}});
+  for (const ThreadCounts& of_thread : counts)
+    frame.stats.add_counts({.rays = {}, .signs = of_thread.signs, .stages = {}});
 }
 
 void render_fast(const Job& job, Frame& frame) {
   const Scene& scene = job.prepared.scene;
   const VisibleBins bins(scene, job.prepared.corners.data(), job.camera, job.grid, job.options.isa,
                          job.threads);
-  struct Times {
-    double draw_ms = 0, shade_ms = 0;
-  };
   const auto threads = static_cast<std::size_t>(job.threads);
   std::vector<VisibleTile> tiles(threads);
-  std::vector<Times> times(threads);
+  std::vector<ThreadTimes> times(threads);
   for_each_tile(job, frame, [&](int tile, int thread, TileResolve& resolve, SignCounts& counts) {
     const Rect pixels = job.grid.tile(tile);
     VisibleTile& visible = tiles[static_cast<std::size_t>(thread)];
-    Times& spent = times[static_cast<std::size_t>(thread)];
+    ThreadTimes& spent = times[static_cast<std::size_t>(thread)];
     LapClock clock;
     const TileView view = visible.clear(scene, job.camera, samples_of(pixels, job.camera.n), counts);
     bins.draw(view, tile);
     spent.draw_ms += clock.lap_ms();
-    resolve.shade(pixels, visible.primitives(view), counts);
+    resolve.shade(pixels, visible.primitives(view), frame, counts);
     resolve.write(frame);
     spent.shade_ms += clock.lap_ms();
   });
@@ -88,7 +100,7 @@ void render_fast(const Job& job, Frame& frame) {
     stages[0].ms += of_thread.project_ms;
     stages[1].ms += of_thread.set_up_ms;
   }
-  for (const Times& of_thread : times) {
+  for (const ThreadTimes& of_thread : times) {
     stages[2].ms += of_thread.draw_ms;
     stages[3].ms += of_thread.shade_ms;
   }
@@ -104,7 +116,7 @@ void render_readable(const Job& job, Frame& frame) {
     const Rect pixels = job.grid.tile(tile);
     const auto draw_and_shade = [&](auto&& depth) {
       bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(scene, primitive, counts); });
-      resolve.shade_hits(pixels, depth, counts);
+      resolve.shade_hits(pixels, depth, frame, counts);
       resolve.write(frame);
     };
     NoFragments nothing;
@@ -121,7 +133,8 @@ Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions
   const StandardFloatState nearest_and_denormals;
   if (options.faults.snap_bits) return render_snapped(prepared, camera, options);
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);
-  const Job job{prepared, camera, options, {frame.window, options.tile}, thread_count(options.threads)};
+  const Job job{
+      prepared, camera, options, {frame.window, tile_edge(options, camera.n)}, thread_count(options.threads)};
   if (options.faults.depth_format || options.faults.float_precision || !frame.cost.empty())
     render_readable(job, frame);
   else
@@ -139,8 +152,11 @@ RasterRecord explain(const Prepared& prepared, const Camera& camera, int X, int 
   DepthTile depth(camera, pixel, fragments);
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive)
     depth.draw(scene, primitive, counts);
-  TileResolve resolve(prepared, camera, RenderOptions{});
-  resolve.shade_hits(pixel, depth, counts);
+  RenderOptions options;
+  options.crop = pixel;
+  Frame frame = make_frame(camera.width, camera.height, n, options);
+  TileResolve resolve(prepared, camera, options);
+  resolve.shade_hits(pixel, depth, frame, counts);
 
   RasterRecord record;
   record.fragments = std::move(fragments.fragments);

@@ -2,6 +2,7 @@
 // What the z-buffer keeps of a scene between frames.
 #pragma once
 
+#include "common/large_pages.h"
 #include "common/model/shading.h"
 #include "raster/raster.h"
 
@@ -12,11 +13,15 @@ class Prepared {
   Prepared(const Scene& s, const Needs& needs) : scene(s), tables(make_shading_tables(s, needs)) {
     corners.reserve(s.triangles.size());
     for (const Triangle& triangle : s.triangles) corners.push_back(triangle.vertex);
+    move_to_large_pages<glm::dvec3>(s.positions);
+    move_to_large_pages<glm::dvec3>(s.normals);
+    move_to_large_pages<Triangle>(s.triangles);
+    move_to_large_pages<std::array<std::uint32_t, 3>>(corners);
   }
 
   const Scene& scene;
   ShadingTables tables;
-  std::vector<std::array<std::uint32_t, 3>> corners;   // of every triangle: all of it that set-up reads
+  std::vector<std::array<std::uint32_t, 3>> corners;  // of every triangle: all of it that set-up reads
 };
 
 }  // namespace sidelight::raster

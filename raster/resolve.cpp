@@ -2,11 +2,29 @@
 #include "raster/resolve.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "common/math/four.h"
 #include "common/picture/tile_pixels.h"
 #include "common/prefetch.h"
 
 namespace sidelight::raster {
+namespace {
+
+// Colours as a picture has them: x0 y0 z0 x1 ..., with zeros of one sign, as in a mean.
+void interleave(const ShadingBatch::Rgb& from, std::size_t first, std::size_t count, glm::vec3* to) {
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const auto four = [&](std::size_t c) {
+      return load_four<FourFloats>(&from[c][first + i]) + FourFloats{};
+    };
+    const auto parts = interleaved(four(0), four(1), four(2));
+    std::memcpy(&to[i].x, parts.data(), sizeof parts);
+  }
+  for (; i < count; ++i) to[i] = glm::vec3(0) + get(from, first + i);
+}
+
+}  // namespace
 
 TileResolve::TileResolve(const Prepared& prepared, const Camera& camera, const RenderOptions& options)
     : prepared_(prepared),
@@ -15,42 +33,55 @@ TileResolve::TileResolve(const Prepared& prepared, const Camera& camera, const R
       n_(camera.n),
       want_parts_((options.layers & kLocalParts) != 0),
       want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
-      want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples) {
+      want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples),
+      find_(prepared.scene) {
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
-    batches_[static_cast<std::size_t>(kind)].kind = kind;
+    collected_[static_cast<std::size_t>(kind)].batch.kind = kind;
 }
 
-void TileResolve::begin(const Rect& pixels) {
+void TileResolve::begin(Layer3& layer, Colors& of_frame, const Frame& frame) const {
+  if (n_ == 1 && !of_frame.empty()) {
+    layer.first = &of_frame[frame.index(pixels_.x0, pixels_.y0)];
+    layer.stride = frame.width();
+    return;
+  }
+  layer.samples.resize(samples());
+  layer.first = layer.samples.data();
+  layer.stride = columns();
+}
+
+void TileResolve::begin(const Rect& pixels, Frame& frame) {
   pixels_ = pixels;
-  const auto samples = static_cast<std::size_t>(columns()) * static_cast<std::size_t>(n_ * pixels.height());
-  color_.resize(samples);
-  if (want_t_) t_.resize(samples);
-  if (want_normal_) normal_.resize(samples);
+  begin(color_, frame.color, frame);
+  if (want_t_) t_.resize(samples());
+  if (want_normal_) normal_.resize(samples());
   if (want_parts_)
-    for (Colors& part : parts_) part.resize(samples);
+    for (std::size_t l = 0; l < parts_.size(); ++l) begin(parts_[l], frame.rgb[l], frame);
 }
 
-void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts) {
-  begin(pixels);
+void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, Frame& frame,
+                        SignCounts& counts) {
+  begin(pixels, frame);
   primitive_ = primitives;
   shade_samples(false, counts);
 }
 
 void TileResolve::shade_samples(bool known_t, SignCounts& counts) {
-  for (SurfaceBatch& batch : batches_) {
-    batch.has_t = known_t;
-    batch.want_t = want_t_;
+  for (Collected& of_kind : collected_) {
+    of_kind.batch.has_t = known_t;
+    of_kind.batch.want_t = want_t_;
+    of_kind.batch.prefetched = true;
   }
   find_runs();
   std::size_t run = 0;
-  for (int Y = n_ * pixels_.y0; Y < n_ * pixels_.y1; ++Y) run = shade_row(Y, run, known_t, counts);
-  for (SurfaceBatch& batch : batches_) flush(batch, counts);
+  for (int row = 0; row < rows(); ++row) run = shade_row(row, run, known_t, counts);
+  for (Collected& of_kind : collected_) flush(of_kind, counts);
 }
 
 // Where the primitive changes in a row, and where a row starts. (No branch: changes are hard to foresee.)
 void TileResolve::find_runs() {
-  run_start_.resize(color_.size() + 1);
-  const auto row = static_cast<std::uint32_t>(columns()), size = static_cast<std::uint32_t>(color_.size());
+  run_start_.resize(samples() + 1);
+  const auto row = static_cast<std::uint32_t>(columns()), size = static_cast<std::uint32_t>(samples());
   std::size_t runs = 0;
   for (std::uint32_t start = 0; start < size; start += row) {
     run_start_[runs++] = start;
@@ -66,91 +97,103 @@ void TileResolve::find_runs() {
   runs_ = runs;
 }
 
-// Brings the triangle of a run near, so that the batch that it will go to finds it there.
-void TileResolve::prefetch_run(std::size_t run) const {
-  if (run >= runs_) return;
-  const std::uint32_t primitive = primitive_[run_start_[run]];
-  if (primitive == kNone) return;
-  const PrimitiveRef ref = primitive_ref(prepared_.scene, primitive);
-  if (ref.kind == ObjectKind::mesh) prefetch(&prepared_.scene.triangles[ref.index]);
+// Brings near what the batch that a run will go to reads of its primitive: first the record that says where that is.
+void TileResolve::prefetch_run(std::size_t run) {
+  constexpr std::size_t kRecord = 64, kSurface = 24;  // runs ahead
+  const auto visit = [&](std::size_t ahead, const auto& bring) {
+    if (run + ahead >= runs_) return;
+    const std::uint32_t primitive = primitive_[run_start_[run + ahead]];
+    if (primitive != kNone) bring(find_(primitive));
+  };
+  visit(kRecord, [&](const PrimitiveRef& ref) {
+    if (ref.kind == ObjectKind::mesh) prefetch(&prepared_.scene.triangles[ref.index]);
+  });
+  visit(kSurface, [&](const PrimitiveRef& ref) { prefetch_surface(prepared_.scene, ref); });
 }
 
 // Stretches of background, and of primitives of one kind. From the row's first run to the next one's.
-std::size_t TileResolve::shade_row(int Y, std::size_t run, bool known_t, SignCounts& counts) {
-  constexpr std::size_t kAhead = 32;
+std::size_t TileResolve::shade_row(int row, std::size_t run, bool known_t, SignCounts& counts) {
   constexpr int kBackground = -1;
-  const Scene& scene = prepared_.scene;
-  std::uint32_t last_object = kNone;
-  int last_kind = kBackground;
   const auto kind_of = [&](std::uint32_t primitive) {
-    if (primitive == kNone) return kBackground;
-    const std::uint32_t object = scene.primitive_object[primitive];
-    if (object != last_object) last_kind = static_cast<int>(scene.objects[object].kind);
-    last_object = object;
-    return last_kind;
+    return primitive == kNone ? kBackground : static_cast<int>(find_(primitive).kind);
   };
-
-  const std::size_t start = index(n_ * pixels_.x0, Y), end = start + static_cast<std::size_t>(columns());
+  const std::size_t start = index(0, row), end = index(0, row + 1);
   for (std::size_t first = start, last; first < end; first = last) {
     const int kind = kind_of(primitive_[first]);
     do {
-      prefetch_run(run + kAhead);
+      prefetch_run(run);
       last = run_start_[++run];
     } while (last < end && kind_of(primitive_[last]) == kind);
+    Run left{static_cast<int>(first - start), row, 0, static_cast<int>(last - first)};
     if (kind == kBackground) {
-      set_background(first, last);
+      set_background(left);
       continue;
     }
-    SurfaceBatch& batch = batches_[static_cast<std::size_t>(kind)];
-    for (std::size_t i = first; i < last;) {
-      const int count = std::min(batch.room(), static_cast<int>(last - i));
-      if (known_t) std::copy_n(&known_t_[i], count, &batch.t[static_cast<std::size_t>(batch.size)]);
-      batch.add(camera_.column_factor(n_ * pixels_.x0 + static_cast<int>(i - start)), camera_.row_factor(Y),
-                &primitive_[i], static_cast<std::uint32_t>(i), count);
-      i += static_cast<std::size_t>(count);
-      if (batch.room() == 0) flush(batch, counts);
+    Collected& collected = collected_[static_cast<std::size_t>(kind)];
+    SurfaceBatch& batch = collected.batch;
+    while (left.count > 0) {
+      const Run now{left.column, row, batch.size, std::min(batch.room(), left.count)};
+      const std::size_t i = index(now.column, row);
+      if (known_t) std::copy_n(&known_t_[i], now.count, &batch.t[static_cast<std::size_t>(now.entry)]);
+      batch.add(camera_.column_factor(n_ * pixels_.x0 + now.column),
+                camera_.row_factor(n_ * pixels_.y0 + row), &primitive_[i], now.count);
+      collected.runs.push_back(now);
+      left.column += now.count;
+      left.count -= now.count;
+      if (batch.room() == 0) flush(collected, counts);
     }
   }
   return run;
 }
 
-void TileResolve::set_background(std::size_t first, std::size_t last) {
-  const auto set = [=](auto& array, const auto& value) {
-    std::fill(array.begin() + static_cast<std::ptrdiff_t>(first),
-              array.begin() + static_cast<std::ptrdiff_t>(last), value);
+void TileResolve::set_background(const Run& run) {
+  const auto set = [&](const Layer3& layer, const glm::vec3& color) {
+    std::fill_n(layer.at(run.column, run.row), run.count, color);
   };
-  const glm::vec3 background(prepared_.scene.background);
+  const auto background = glm::vec3(0) + glm::vec3(prepared_.scene.background);
   set(color_, background);
-  if (want_t_) set(t_, 0.0);
-  if (want_normal_) set(normal_, glm::vec3(0));
+  const auto first = static_cast<std::ptrdiff_t>(index(run.column, run.row));
+  if (want_t_) std::fill_n(t_.begin() + first, run.count, 0.0);
+  if (want_normal_) std::fill_n(normal_.begin() + first, run.count, glm::vec3(0));
   if (!want_parts_) return;
   set(parts_[0], background);  // booked as ambient light
   set(parts_[1], glm::vec3(0));
   set(parts_[2], glm::vec3(0));
 }
 
-void TileResolve::flush(SurfaceBatch& batch, SignCounts& counts) {
-  surfaces_at(isa_, prepared_.scene, camera_, prepared_.tables, batch, shading_, counts);
+void TileResolve::flush(Collected& collected, SignCounts& counts) {
+  surfaces_at(isa_, prepared_.scene, camera_, prepared_.tables, collected.batch, shading_, counts);
   sidelight::shade(isa_, prepared_.tables, shading_, want_parts_);
-  const auto size = static_cast<std::size_t>(batch.size);
-  for (std::size_t i = 0; i < size; ++i) color_[batch.sample[i]] = get(shading_.unshadowed, i);
+  for (const Run& run : collected.runs) keep(collected.batch, run);
+  collected.runs.clear();
+  collected.batch.size = 0;
+}
+
+// What has been found of a run.
+void TileResolve::keep(const SurfaceBatch& batch, const Run& run) {
+  const auto from = static_cast<std::size_t>(run.entry), count = static_cast<std::size_t>(run.count);
+  const auto put = [&](const Layer3& layer, const ShadingBatch::Rgb& colors) {
+    interleave(colors, from, count, layer.at(run.column, run.row));
+  };
+  put(color_, shading_.unshadowed);
+  if (want_parts_) {
+    put(parts_[0], shading_.ambient_layer);
+    put(parts_[1], shading_.diffuse_layer);
+    put(parts_[2], shading_.specular_layer);
+  }
+  const std::size_t to = index(run.column, run.row);
   if (want_t_)
-    for (std::size_t i = 0; i < size; ++i) t_[batch.sample[i]] = batch.t[i];
+    for (std::size_t i = 0; i < count; ++i) t_[to + i] = batch.t[from + i];
   if (want_normal_)
-    for (std::size_t i = 0; i < size; ++i) normal_[batch.sample[i]] = get(shading_.normal, i);
-  if (want_parts_)
-    for (std::size_t i = 0; i < size; ++i) {
-      parts_[0][batch.sample[i]] = get(shading_.ambient_layer, i);
-      parts_[1][batch.sample[i]] = get(shading_.diffuse_layer, i);
-      parts_[2][batch.sample[i]] = get(shading_.specular_layer, i);
-    }
-  batch.size = 0;
+    for (std::size_t i = 0; i < count; ++i) normal_[to + i] = get(shading_.normal, from + i);
 }
 
 void TileResolve::write(Frame& frame) const {
   const TilePixels tile(pixels_, n_);
-  tile.write_means(color_, frame, frame.color);
-  for (std::size_t l = 0; l < parts_.size(); ++l) tile.write_means(parts_[l], frame, frame.rgb[l]);
+  if (n_ > 1) {
+    tile.write_means(color_.samples, frame, frame.color);
+    for (std::size_t l = 0; l < parts_.size(); ++l) tile.write_means(parts_[l].samples, frame, frame.rgb[l]);
+  }
   tile.write_surfaces([&](std::size_t sample) { return primitive_[sample]; }, t_, normal_, prepared_.scene,
                       camera_.depth_scale(), frame);
   if (frame.cost.empty() || tests_.empty()) return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/model/surface_batch.h"
+#include "common/scene/primitive_finder.h"
 #include "raster/prepared.h"
 
 namespace sidelight::raster {
@@ -18,16 +19,16 @@ class TileResolve {
   // Of the options, isa, layers and keep_samples.
   TileResolve(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
-  // The samples of `pixels`, of which the z-buffer keeps these primitives (row by row on the lattice; kNone: background).
-  // They must stay until the tile is written.
-  void shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts);
+  // The samples of `pixels` of the frame, of which the z-buffer keeps these primitives (row by row on the lattice; kNone:
+  // background). They must stay until the tile is written.
+  void shade(const Rect& pixels, const std::uint32_t* primitives, Frame& frame, SignCounts& counts);
   // The same of what a tile of hits holds: a DepthTile, or one with faults, whose depths need not be those of visibility.h.
   template <class Tile>
-  void shade_hits(const Rect& pixels, const Tile& tile, SignCounts& counts) {
-    begin(pixels);
-    kept_primitive_.resize(color_.size());
-    known_t_.resize(color_.size());
-    tests_.resize(color_.size());
+  void shade_hits(const Rect& pixels, const Tile& tile, Frame& frame, SignCounts& counts) {
+    begin(pixels, frame);
+    kept_primitive_.resize(samples());
+    known_t_.resize(samples());
+    tests_.resize(samples());
     std::size_t i = 0;
     for (int Y = n_ * pixels.y0; Y < n_ * pixels.y1; ++Y)
       for (int X = n_ * pixels.x0; X < n_ * pixels.x1; ++X, ++i) {
@@ -39,25 +40,49 @@ class TileResolve {
     shade_samples(true, counts);
   }
 
-  // After shade(): the colour of the sample at (X, Y) of the tile, and the pixels' means into the frame.
-  const glm::vec3& color(int X, int Y) const { return color_[index(X, Y)]; }
+  // After shade(): the colour of the sample at (X, Y) of the tile, and what the frame's pixels are made of.
+  const glm::vec3& color(int X, int Y) const { return *color_.at(X - n_ * pixels_.x0, Y - n_ * pixels_.y0); }
   void write(Frame& frame) const;
 
  private:
   using Colors = std::vector<glm::vec3>;
 
+  // A colour of each sample, column by column in rows: of one sample a pixel the pixels themselves, else an array of the
+  // tile's, of which write() takes the means.
+  struct Layer3 {
+    Colors samples{};
+    glm::vec3* first = nullptr;
+    std::ptrdiff_t stride = 0;
+
+    glm::vec3* at(int column, int row) const { return first + row * stride + column; }
+  };
+  // Neighbours in a row, from (column, row) of the tile, and where they begin in their batch.
+  struct Run {
+    int column = 0, row = 0, entry = 0, count = 0;
+  };
+  struct Collected {
+    SurfaceBatch batch;
+    std::vector<Run> runs;
+  };
+
   int columns() const { return n_ * pixels_.width(); }
-  std::size_t index(int X, int Y) const {
-    return static_cast<std::size_t>(Y - n_ * pixels_.y0) * static_cast<std::size_t>(columns()) +
-           static_cast<std::size_t>(X - n_ * pixels_.x0);
+  int rows() const { return n_ * pixels_.height(); }
+  std::size_t samples() const {
+    return static_cast<std::size_t>(columns()) * static_cast<std::size_t>(rows());
   }
-  void begin(const Rect& pixels);
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns()) +
+           static_cast<std::size_t>(column);
+  }
+  void begin(const Rect& pixels, Frame& frame);
+  void begin(Layer3& layer, Colors& of_frame, const Frame& frame) const;
   void shade_samples(bool known_t, SignCounts& counts);
   void find_runs();
-  void prefetch_run(std::size_t run) const;
-  std::size_t shade_row(int Y, std::size_t run, bool known_t, SignCounts& counts);
-  void set_background(std::size_t first, std::size_t last);
-  void flush(SurfaceBatch& batch, SignCounts& counts);
+  void prefetch_run(std::size_t run);
+  std::size_t shade_row(int row, std::size_t run, bool known_t, SignCounts& counts);
+  void set_background(const Run& run);
+  void flush(Collected& collected, SignCounts& counts);
+  void keep(const SurfaceBatch& batch, const Run& run);
 
   const Prepared& prepared_;
   const Camera& camera_;
@@ -71,9 +96,11 @@ class TileResolve {
   std::vector<std::uint32_t> run_start_;  // of runs_ runs of one primitive in a row; and the end of the last
   std::size_t runs_ = 0;
   std::vector<double> known_t_, t_;
-  Colors color_, normal_;
-  std::array<Colors, 3> parts_;          // ambient, diffuse, specular
-  std::array<SurfaceBatch, 3> batches_;  // by ObjectKind
+  Colors normal_;
+  Layer3 color_;
+  std::array<Layer3, 3> parts_;         // ambient, diffuse, specular
+  std::array<Collected, 3> collected_;  // by ObjectKind
+  PrimitiveFinder find_;
   ShadingBatch shading_;
 };
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "common/math/four.h"
 #include "common/math/lane_ops.h"
 #include "common/scene/camera.h"
 
@@ -23,7 +24,7 @@ struct SampleBox {
 struct alignas(16) ScreenVertex {
   std::int32_t x = 0, y = 0;  // from the lattice's centre, in units of 2^-bits samples; y down
   float w = 0;                // 1/t of the point on its ray: 2nH / (a.f)
-  std::uint32_t state = 0;    // ScreenSpace's flags; 0 where x, y and w hold and the point may be on the screen
+  std::uint32_t state = 0;  // ScreenSpace's flags; 0 where x, y and w hold and the point may be on the screen
 };
 
 struct ScreenSpace {
@@ -69,9 +70,31 @@ Box<I> box_of_places(const ScreenSpace& space, const I& left, const I& top, cons
 
 // ---- The kernel, for lanes D of doubles ----
 
+// The records of as many vertices.
+template <class D, class I, class W>
+void put_records(const I& x, const I& y, const W& w, const I& state, ScreenVertex* to) {
+  constexpr int kCount = kLanes<D>;
+  if constexpr (kCount == 1) {
+    *to = {x, y, w, static_cast<std::uint32_t>(state)};
+  } else {
+    alignas(64) std::int32_t xs[kCount], ys[kCount], states[kCount];
+    alignas(64) float ws[kCount];
+    store(x, xs);
+    store(y, ys);
+    store(w, ws);
+    store(state, states);
+    for (int i = 0; i < kCount; i += 4) {
+      const auto records =
+          transposed(load_four(xs + i), load_four(ys + i), load_four(ws + i), load_four(states + i));
+      for (std::size_t k = 0; k < 4; ++k) store_four(records[k], to + i + k);
+    }
+  }
+}
+
 // Derivation. X = (scale a.r / a.f + columns - 1) / 2 in exact arithmetic. With q = |a|_1 / a.f the dot products are
 // off by at most 4u |a||r| and 4u |a|, so scale a.r / a.f by 8u q² lens; that a, r, u, f and the sample's own ray are
-// rounded adds 8u q lens, that r, u and f are orthogonal only up to rounding 8u q lens, and the sums 4u (columns + rows).
+// rounded adds 8u q lens, that r, u and f are orthogonal only up to rounding 8u q lens, the quotient by way of 1/(a.f) 2u and the
+// sums 4u (columns + rows).
 // 2^-47 = 64u times (q² lens + columns + rows) is more than all. Placed is what this leaves within a quarter of a unit;
 // rounding to a whole number of units adds a half.
 template <class D>
@@ -84,10 +107,10 @@ void project_lanes(const ScreenSpace& space, const D& vx, const D& vy, const D& 
   const D depth = along(space.forward), x = D(space.scale) * along(space.right),
           y = D(space.scale) * along(space.up);
   const Mask<D> in_front = depth > size * D(0x1p-10);
-  const D safe = select<D>(in_front, depth, D(1));
-  const D place_x = D(space.half_unit) * (x / safe) + D(space.offset_x);
-  const D place_y = D(space.offset_y) - D(space.half_unit) * (y / safe);
-  const D q = size / safe;
+  const D per_depth = D(1) / select<D>(in_front, depth, D(1));
+  const D place_x = D(space.half_unit) * (x * per_depth) + D(space.offset_x);
+  const D place_y = D(space.offset_y) - D(space.half_unit) * (y * per_depth);
+  const D q = size * per_depth;
   const D extent(static_cast<double>(space.columns) + static_cast<double>(space.rows));
   const D moved = D(0x1p-46) * (D(space.half_unit) * (q * q * D(space.lens) + extent));
   const D limit(0x1p30 - 4);
@@ -106,17 +129,9 @@ void project_lanes(const ScreenSpace& space, const D& vx, const D& vy, const D& 
 
   // A double's low bits after adding 1.5 * 2^52 are its nearest integer.
   const D round(0x1.8p52);
-  constexpr int kCount = kLanes<D>;
-  alignas(64) std::int64_t xs[kCount], ys[kCount], states[kCount];
-  alignas(64) double ws[kCount];
-  const auto integer = [&](const D& v) { return to_bits<D>(v + round); };
-  store(integer(select<D>(placed, place_x, D(0))), xs);
-  store(integer(select<D>(placed, place_y, D(0))), ys);
-  store(integer(state), states);
-  store(D(space.depth_scale) / safe, ws);
-  for (int i = 0; i < kCount; ++i)
-    to[i] = {static_cast<std::int32_t>(xs[i]), static_cast<std::int32_t>(ys[i]), static_cast<float>(ws[i]),
-             static_cast<std::uint32_t>(states[i])};
+  const auto integer = [&](const D& v) { return low_halves<D>(to_bits<D>(v + round)); };
+  put_records<D>(integer(select<D>(placed, place_x, D(0))), integer(select<D>(placed, place_y, D(0))),
+                 to_float(D(space.depth_scale) * per_depth), integer(state), to);
 }
 
 }  // namespace sidelight::raster

@@ -4,6 +4,8 @@
 // Included only by kernels_scalar.cpp, kernels_avx2.cpp and kernels_avx512.cpp.
 #pragma once
 
+#include <bit>
+
 #include "raster/kernels.h"
 #include "raster/screen_triangle.h"
 
@@ -24,27 +26,93 @@ template <class D>
     for (; i < size; ++i) to[i] = project(space, from[i]);
 }
 
+// ---- Tiny triangles ----
+
 template <class F>
-ScreenTriangle<F> triangle_at(const TriangleChunk& chunk, std::size_t i) {
-  using I = Ints<F>;
-  return screen_triangle<F>({load<I>(&chunk.x[0][i]), load<I>(&chunk.x[1][i]), load<I>(&chunk.x[2][i])},
-                            {load<I>(&chunk.y[0][i]), load<I>(&chunk.y[1][i]), load<I>(&chunk.y[2][i])},
-                            {load<F>(&chunk.w[0][i]), load<F>(&chunk.w[1][i]), load<F>(&chunk.w[2][i])});
+struct Boxes {
+  Ints<F> x0, y0, x1, y1;
+};
+
+// The lanes of a row of boxes where something holds, as fragments: bit i kLanes + lane is sample i of the row.
+template <class F>
+std::size_t append(std::uint64_t bits, const Boxes<F>& boxes, int j,
+                   const std::array<F, TinyFragments::kBox>& w, std::int32_t first, ScreenFragment* to) {
+  constexpr int kCount = kLanes<F>;
+  alignas(64) std::int32_t xs[kCount], ys[kCount];
+  alignas(64) float ws[TinyFragments::kBox][kCount];
+  store(boxes.x0, xs);
+  store(boxes.y0, ys);
+  for (std::size_t i = 0; i < w.size(); ++i) store(w[i], ws[i]);
+  std::size_t size = 0;
+  for (; bits != 0; bits &= bits - 1) {
+    const int bit = std::countr_zero(bits), i = bit / kCount, lane = bit % kCount;
+    to[size++] = {xs[lane] + i, ys[lane] + j, ws[i][lane], static_cast<std::uint32_t>(first + lane)};
+  }
+  return size;
 }
 
-// Boxes and kinds. Entries beyond size are set up too, from whatever they hold, and unused.
+// Every sample of the boxes, a triangle in each lane. `first`: the place of the first lane's triangle.
 template <class F>
-[[gnu::flatten]] void set_up_chunk(const ScreenSpace& space, const SampleBox& window, TriangleChunk& chunk) {
+void rasterize_tiny(const ScreenSpace& space, const ScreenTriangle<F>& t, const std::array<Ints<F>, 3>& x,
+                    const std::array<Ints<F>, 3>& y, const Boxes<F>& boxes, const Mask<F>& tiny,
+                    std::int32_t first, TinyFragments& out) {
+  using I = Ints<F>;
+  constexpr int kBox = TinyFragments::kBox;
+  const F width = to_real<F>(I(boxes.x1 - boxes.x0)), height = to_real<F>(I(boxes.y1 - boxes.y0));
+  // E_k = across_k - down_k, the one constant along a column, the other along a row.
+  std::array<std::array<F, 3>, kBox> across;
+  for (int i = 0; i < kBox; ++i) {
+    const I place = (boxes.x0 + I(i - space.center_x)) << space.bits;
+    for (std::size_t k = 0; k < 3; ++k)
+      across[static_cast<std::size_t>(i)][k] = to_real<F>(I(x[(k + 1) % 3] - place)) * t.dy[k];
+  }
+  for (int j = 0; j < kBox; ++j) {
+    const Mask<F> row = tiny && F(static_cast<float>(j)) < height;
+    if (!any<F>(row)) break;
+    const I place = (boxes.y0 + I(j - space.center_y)) << space.bits;
+    std::array<F, 3> down;
+    for (std::size_t k = 0; k < 3; ++k) down[k] = to_real<F>(I(y[(k + 1) % 3] - place)) * t.dx[k];
+
+    std::array<F, kBox> w;
+    std::uint64_t covered = 0, doubtful = 0;
+    for (int i = 0; i < kBox; ++i) {
+      const auto column = static_cast<std::size_t>(i);
+      const Mask<F> tried = row && F(static_cast<float>(i)) < width;
+      const F e0 = across[column][0] - down[0], e1 = across[column][1] - down[1],
+              e2 = across[column][2] - down[2];
+      const F least = lane_min(lane_min(e0, e1), e2);
+      w[column] = select<F>(t.sure_depth, t.w0 + (e1 * t.slope1 + e2 * t.slope2), F(0));
+      covered |= std::uint64_t{mask_bits<F>(tried && least > t.doubt)} << (i * kLanes<F>);
+      doubtful |= std::uint64_t{mask_bits<F>(tried && lane_abs(least) <= t.doubt)} << (i * kLanes<F>);
+    }
+    out.covered += append<F>(covered, boxes, j, w, first, &out.fragment[out.covered]);
+    if (doubtful != 0) {
+      w.fill(F(0));
+      out.doubtful += append<F>(doubtful, boxes, j, w, first, &out.doubt[out.doubtful]);
+    }
+  }
+}
+
+// ---- Boxes and kinds ----
+
+// Entries beyond size are set up too, from whatever they hold, and unused.
+template <class F>
+[[gnu::flatten]] void set_up_chunk(const ScreenSpace& space, const SampleBox& window, TriangleChunk& chunk,
+                                   TinyFragments& out) {
   using I = Ints<F>;
   using K = TriangleChunk;
+  out.covered = out.doubtful = 0;
+  out.triangles = 0;
+  I tests(0);
   for (std::size_t i = 0; i < static_cast<std::size_t>(chunk.size); i += kLanes<F>) {
-    const I xa = load<I>(&chunk.x[0][i]), xb = load<I>(&chunk.x[1][i]), xc = load<I>(&chunk.x[2][i]);
-    const I ya = load<I>(&chunk.y[0][i]), yb = load<I>(&chunk.y[1][i]), yc = load<I>(&chunk.y[2][i]);
-    const I left = lane_min(lane_min(xa, xb), xc), right = lane_max(lane_max(xa, xb), xc);
-    const I top = lane_min(lane_min(ya, yb), yc), bottom = lane_max(lane_max(ya, yb), yc);
+    const std::array<I, 3> x{load<I>(&chunk.x[0][i]), load<I>(&chunk.x[1][i]), load<I>(&chunk.x[2][i])};
+    const std::array<I, 3> y{load<I>(&chunk.y[0][i]), load<I>(&chunk.y[1][i]), load<I>(&chunk.y[2][i])};
+    const I left = lane_min(lane_min(x[0], x[1]), x[2]), right = lane_max(lane_max(x[0], x[1]), x[2]);
+    const I top = lane_min(lane_min(y[0], y[1]), y[2]), bottom = lane_max(lane_max(y[0], y[1]), y[2]);
     const Box<I> box = box_of_places(space, left, top, right, bottom);
-    const I x0 = lane_max(box.x0, I(window.x0)), y0 = lane_max(box.y0, I(window.y0));
-    const I x1 = lane_min(box.x1, I(window.x1)), y1 = lane_min(box.y1, I(window.y1));
+    const Boxes<F> in_window{lane_max(box.x0, I(window.x0)), lane_max(box.y0, I(window.y0)),
+                             lane_min(box.x1, I(window.x1)), lane_min(box.y1, I(window.y1))};
+    const auto& [x0, y0, x1, y1] = in_window;
     store(x0, &chunk.x0[i]);
     store(y0, &chunk.y0[i]);
     store(x1, &chunk.x1[i]);
@@ -55,91 +123,27 @@ template <class F>
     const I unplaced(static_cast<int>(ScreenSpace::kUnplaced));
     const auto placed = ((sa | sb | sc) & unplaced) == I(0);
     const auto beyond = ((sa & sb & sc) & ~unplaced) != I(0);
-    const auto seen = !beyond && !(placed && (x0 >= x1 || y0 >= y1));
+    const auto seen = !beyond && !(placed && (x0 >= x1 || y0 >= y1)) &&
+                      lane_numbers<I>() < I(chunk.size - static_cast<int>(i));
     if (!any<I>(seen)) {
       store(I(K::kNothing), &chunk.kind[i]);
       continue;
     }
     const auto small = placed && right - left <= I(kSmallExtent) && bottom - top <= I(kSmallExtent);
-    const auto tiny = x1 - x0 <= I(K::kTinyBox) && y1 - y0 <= I(K::kTinyBox);
-    const ScreenTriangle<F> triangle = triangle_at<F>(chunk, i);
+    const ScreenTriangle<F> triangle =
+        screen_triangle<F>(x, y, {load<F>(&chunk.w[0][i]), load<F>(&chunk.w[1][i]), load<F>(&chunk.w[2][i])});
     const I by_side = select<I>(integer_mask<F>(triangle.front), I(K::kFront), I(K::kBack));
-    const I of_small = select<I>(integer_mask<F>(triangle.sure_side), select<I>(tiny, I(K::kTiny), by_side),
-                                 I(K::kDoubtful));
-    store(select<I>(seen, select<I>(small, of_small, I(K::kLarge)), I(K::kNothing)), &chunk.kind[i]);
+    const I of_small = select<I>(integer_mask<F>(triangle.sure_side), by_side, I(K::kDoubtful));
+    const auto tiny = seen && small && integer_mask<F>(triangle.sure_side) &&
+                      x1 - x0 <= I(TinyFragments::kBox) && y1 - y0 <= I(TinyFragments::kBox);
+    store(select<I>(seen && !tiny, select<I>(small, of_small, I(K::kLarge)), I(K::kNothing)), &chunk.kind[i]);
+    if (!any<I>(tiny)) continue;
+    out.triangles += static_cast<std::uint64_t>(count<I>(tiny));
+    tests += select<I>(tiny, (x1 - x0) * (y1 - y0), I(0));
+    rasterize_tiny<F>(space, triangle, x, y, in_window, real_mask<F>(tiny), static_cast<std::int32_t>(i),
+                      out);
   }
-}
-
-// Entry `of` of the queue in each lane.
-template <class V, class From>
-V gathered(const From& from, const std::int32_t* queue) {
-  return generate<V>([&](int lane) { return from[static_cast<std::size_t>(queue[lane])]; });
-}
-
-// Appends the lanes where `mask` holds; `to` must have room for all lanes.
-template <class F>
-std::size_t append(const Mask<F>& mask, const Ints<F>& X, const Ints<F>& Y, const F& w,
-                   const std::int32_t* queue, ScreenFragment* to) {
-  constexpr int kCount = kLanes<F>;
-  alignas(64) std::int32_t xs[kCount], ys[kCount], taken[kCount];
-  alignas(64) float ws[kCount];
-  store(X, xs);
-  store(Y, ys);
-  store(w, ws);
-  store(select<Ints<F>>(integer_mask<F>(mask), Ints<F>(1), Ints<F>(0)), taken);
-  std::size_t size = 0;
-  for (int lane = 0; lane < kCount; ++lane) {
-    to[size] = {xs[lane], ys[lane], ws[lane], static_cast<std::uint32_t>(queue[lane])};
-    size += static_cast<std::size_t>(taken[lane]);
-  }
-  return size;
-}
-
-// Every sample of up to 3 x 3, of as many triangles as F has lanes at a time.
-template <class F>
-[[gnu::flatten]] void rasterize_tiny_queue(const ScreenSpace& space, const TriangleChunk& chunk,
-                                           const std::int32_t* queue, int size, TinyFragments& out) {
-  using I = Ints<F>;
-  out.covered = out.doubtful = 0;
-  for (int first = 0; first < size; first += kLanes<F>) {
-    // The last vector is filled up with the queue's last triangle, in lanes that are off.
-    std::int32_t at[kLanes<F>];
-    for (int lane = 0; lane < kLanes<F>; ++lane) at[lane] = queue[std::min(first + lane, size - 1)];
-    const auto corner = [&](const auto& of, auto zero) {
-      using V = decltype(zero);
-      return std::array<V, 3>{gathered<V>(of[0], at), gathered<V>(of[1], at), gathered<V>(of[2], at)};
-    };
-    const std::array<I, 3> x = corner(chunk.x, I{}), y = corner(chunk.y, I{});
-    const ScreenTriangle<F> t = screen_triangle<F>(x, y, corner(chunk.w, F{}));
-    const I x0 = gathered<I>(chunk.x0, at), y0 = gathered<I>(chunk.y0, at);
-    const F width = to_real<F>(I(gathered<I>(chunk.x1, at) - x0));
-    const F height = to_real<F>(I(gathered<I>(chunk.y1, at) - y0));
-    const Mask<F> on = lane_numbers<F>() < F(static_cast<float>(size - first));
-
-    for (int j = 0; j < TriangleChunk::kTinyBox; ++j) {
-      const Mask<F> row = on && F(static_cast<float>(j)) < height;
-      if (!any<F>(row)) break;
-      const I Y = y0 + I(j), place_y = (Y - I(space.center_y)) << space.bits;
-      for (int i = 0; i < TriangleChunk::kTinyBox; ++i) {
-        const Mask<F> tried = row && F(static_cast<float>(i)) < width;
-        if (!any<F>(tried)) break;
-        const I X = x0 + I(i), place_x = (X - I(space.center_x)) << space.bits;
-        const auto edge = [&](std::size_t k) {
-          const std::size_t from = (k + 1) % 3;
-          return to_real<F>(I(x[from] - place_x)) * t.dy[k] - to_real<F>(I(y[from] - place_y)) * t.dx[k];
-        };
-        const F e0 = edge(0), e1 = edge(1), e2 = edge(2);
-        const F least = lane_min(lane_min(e0, e1), e2);
-        const F w = t.w0 + (e1 * t.slope1 + e2 * t.slope2);
-        const Mask<F> covered = tried && least > t.doubt;
-        if (any<F>(covered))
-          out.covered +=
-              append<F>(covered, X, Y, select<F>(t.sure_depth, w, F(0)), at, &out.fragment[out.covered]);
-        const Mask<F> doubtful = tried && lane_abs(least) <= t.doubt;
-        if (any<F>(doubtful)) out.doubtful += append<F>(doubtful, X, Y, F(0), at, &out.doubt[out.doubtful]);
-      }
-    }
-  }
+  out.tests = sum<I>(tests);
 }
 
 }  // namespace sidelight::raster

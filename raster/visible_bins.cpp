@@ -2,10 +2,9 @@
 #include "raster/visible_bins.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 #include "common/clock.h"
+#include "common/large_pages.h"
 #include "common/parallel.h"
 
 namespace sidelight::raster {
@@ -28,9 +27,9 @@ std::uint64_t area(const SampleBox& box) {
 
 struct VisibleBins::Workshop {
   TriangleChunk chunk{};
-  TinyFragments fragments{};
-  // Places in the chunk, by kind; each is written one beyond its end.
-  std::array<std::int32_t, TriangleChunk::kSize + 1> tiny{}, front{}, back{}, others{};
+  TinyFragments tiny{};
+  // Places in the chunk of what is left for the tiles; written one beyond its end.
+  std::array<std::uint32_t, TriangleChunk::kSize + 1> queue{};
 };
 
 VisibleBins::VisibleBins(const Scene& scene, const Corners3* corners, const Camera& camera,
@@ -48,6 +47,7 @@ VisibleBins::VisibleBins(const Scene& scene, const Corners3* corners, const Came
       vertices_(std::make_unique_for_overwrite<ScreenVertex[]>(scene.positions.size())),
       threads_(static_cast<std::size_t>(threads)) {
   const auto vertices = static_cast<std::uint32_t>(scene.positions.size());
+  wish_large_pages(vertices_.get(), vertices * sizeof(ScreenVertex));
   parallel_for(static_cast<int>((vertices + kVertexBatch - 1) / kVertexBatch), threads,
                [&](int item, int thread) {
                  LapClock clock;
@@ -84,26 +84,19 @@ std::vector<VisibleBins::Batch> VisibleBins::batches() const {
   return batches;
 }
 
-// The records of four vertices become four x, four y, four w and four states. (Sixteen bytes are in every x86-64's
-// reach, and the rest is loads and stores: nothing here gains from wider lanes.)
+// The records of four vertices become four x, four y, four w and four states.
 void VisibleBins::load_chunk(const Corners3* corners, TriangleChunk& chunk) const {
-  using Four = std::int32_t __attribute__((vector_size(16)));
   const auto record = [&](std::size_t triangle, std::size_t k) {
-    return std::bit_cast<Four>(
-        vertices_[corners[std::min(triangle, static_cast<std::size_t>(chunk.size) - 1)][k]]);
+    return load_four(&vertices_[corners[std::min(triangle, static_cast<std::size_t>(chunk.size) - 1)][k]]);
   };
   for (std::size_t i = 0; i < static_cast<std::size_t>(chunk.size); i += 4)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Four a = record(i, k), b = record(i + 1, k), c = record(i + 2, k), d = record(i + 3, k);
-      const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5),
-                 cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-      const Four ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7),
-                 cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-      const auto put = [](const Four& four, auto* to) { std::memcpy(to, &four, sizeof(four)); };
-      put(__builtin_shufflevector(ab, cd, 0, 1, 4, 5), &chunk.x[k][i]);
-      put(__builtin_shufflevector(ab, cd, 2, 3, 6, 7), &chunk.y[k][i]);
-      put(__builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5), &chunk.w[k][i]);
-      put(__builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7), &chunk.state[k][i]);
+      const auto [x, y, w, state] =
+          transposed(record(i, k), record(i + 1, k), record(i + 2, k), record(i + 3, k));
+      store_four(x, &chunk.x[k][i]);
+      store_four(y, &chunk.y[k][i]);
+      store_four(w, &chunk.w[k][i]);
+      store_four(state, &chunk.state[k][i]);
     }
 }
 
@@ -116,66 +109,50 @@ void VisibleBins::set_up_triangles(const Batch& batch, Workshop& shop, ThreadBin
   }
 }
 
-// Sorts the chunk's triangles into queues by kind, so that each step runs over full lanes.
 void VisibleBins::set_up_chunk(Workshop& shop, std::uint32_t first_triangle, std::uint32_t first_primitive,
                                ThreadBins& bins) const {
   TriangleChunk& chunk = shop.chunk;
-  kernels_.set_up(space_, window_, chunk);
-  std::size_t tiny = 0, front = 0, back = 0, others = 0;
-  for (std::int32_t i = 0; i < chunk.size; ++i) {
-    const std::int32_t kind = chunk.kind[static_cast<std::size_t>(i)];
-    shop.tiny[tiny] = shop.front[front] = shop.back[back] = shop.others[others] = i;
-    tiny += kind == TriangleChunk::kTiny;
-    front += kind == TriangleChunk::kFront;
-    back += kind == TriangleChunk::kBack;
-    others += kind > TriangleChunk::kBack;
-  }
-  const auto box_of = [&](std::int32_t place) {
-    const auto i = static_cast<std::size_t>(place);
-    return SampleBox{chunk.x0[i], chunk.y0[i], chunk.x1[i], chunk.y1[i]};
-  };
+  kernels_.set_up(space_, window_, chunk, shop.tiny);
+  collect_fragments(shop.tiny, first_primitive, bins);
+  bins.counts.tests += shop.tiny.tests;
+  bins.counts.filtered += 3 * shop.tiny.tests + shop.tiny.triangles;
 
-  std::uint64_t tests = 0;
-  for (std::size_t done = 0; done < tiny; done += TinyFragments::kTriangles) {
-    const std::size_t size = std::min<std::size_t>(TinyFragments::kTriangles, tiny - done);
-    kernels_.rasterize_tiny(space_, chunk, &shop.tiny[done], static_cast<int>(size), shop.fragments);
-    collect_fragments(shop, first_primitive, bins);
-    for (std::size_t q = done; q < done + size; ++q) tests += area(box_of(shop.tiny[q]));
+  // No branch: what becomes of the next triangle is hard to foresee.
+  std::size_t size = 0;
+  for (std::uint32_t place = 0; place < static_cast<std::uint32_t>(chunk.size); ++place) {
+    shop.queue[size] = place;
+    size += chunk.kind[place] != TriangleChunk::kNothing;
   }
-  const auto put = [&](const auto& queue, std::size_t size, std::vector<SmallTriangle> TileBin::*list) {
-    for (std::size_t q = 0; q < size; ++q) {
-      const SampleBox box = box_of(queue[q]);
-      const auto place = static_cast<std::uint32_t>(queue[q]);
-      const SmallTriangle triangle{first_triangle + place, first_primitive + place};
-      for_each_bin(bins, box, [&](TileBin& bin) { (bin.*list).push_back(triangle); });
-      tests += area(box);
+  for (std::size_t q = 0; q < size; ++q) {
+    const std::uint32_t place = shop.queue[q];
+    const SampleBox box{chunk.x0[place], chunk.y0[place], chunk.x1[place], chunk.y1[place]};
+    const SmallTriangle triangle{first_triangle + place, first_primitive + place};
+    const std::int32_t kind = chunk.kind[place];
+    if (kind != TriangleChunk::kFront && kind != TriangleChunk::kBack) {
+      set_up_in_double(triangle.triangle, triangle.primitive, box, kind == TriangleChunk::kDoubtful, bins);
+      continue;
     }
-  };
-  put(shop.front, front, &TileBin::front);
-  put(shop.back, back, &TileBin::back);
-  bins.counts.tests += tests;
-  bins.counts.filtered += 3 * tests + tiny + front + back;  // draw_exactly() takes back what it decides
-  for (std::size_t q = 0; q < others; ++q) {
-    const auto place = static_cast<std::uint32_t>(shop.others[q]);
-    set_up_in_double(first_triangle + place, first_primitive + place, box_of(shop.others[q]),
-                     chunk.kind[place] == TriangleChunk::kDoubtful, bins);
+    bins.counts.tests += area(box);
+    bins.counts.filtered += 3 * area(box) + 1;  // draw_exactly() takes back what it decides
+    const auto list = kind == TriangleChunk::kFront ? &TileBin::front : &TileBin::back;
+    for_each_bin(bins, box, [&](TileBin& bin) { (bin.*list).push_back(triangle); });
   }
 }
 
-void VisibleBins::collect_fragments(const Workshop& shop, std::uint32_t first_primitive,
+void VisibleBins::collect_fragments(const TinyFragments& tiny, std::uint32_t first_primitive,
                                     ThreadBins& bins) const {
   const auto put = [&](ScreenFragment fragment) {
     const int tile = tile_row(fragment.Y) * grid_.columns() + tile_column(fragment.X);
     bins.tiles[static_cast<std::size_t>(tile)].fragments.push_back(fragment);
   };
-  for (std::size_t i = 0; i < shop.fragments.covered; ++i) {
-    ScreenFragment fragment = shop.fragments.fragment[i];
+  for (std::size_t i = 0; i < tiny.covered; ++i) {
+    ScreenFragment fragment = tiny.fragment[i];
     fragment.primitive += first_primitive;
     put(fragment);
   }
-  bins.counts.fragments += shop.fragments.covered;
-  for (std::size_t i = 0; i < shop.fragments.doubtful; ++i) {
-    ScreenFragment fragment = shop.fragments.doubt[i];
+  bins.counts.fragments += tiny.covered;
+  for (std::size_t i = 0; i < tiny.doubtful; ++i) {
+    ScreenFragment fragment = tiny.doubt[i];
     fragment.primitive += first_primitive;
     const Ray ray{camera_.eye, camera_.direction(fragment.X, fragment.Y)};
     const Hit hit = intersect(scene_, fragment.primitive, ray, kRayStart, bins.counts);

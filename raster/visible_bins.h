@@ -58,7 +58,7 @@ class VisibleBins {
   void set_up_in_double(std::uint32_t triangle, std::uint32_t primitive, const SampleBox& box, bool small,
                         ThreadBins& bins) const;
   void set_up_other(std::uint32_t primitive, ThreadBins& bins) const;
-  void collect_fragments(const Workshop& shop, std::uint32_t first_primitive, ThreadBins& bins) const;
+  void collect_fragments(const TinyFragments& tiny, std::uint32_t first_primitive, ThreadBins& bins) const;
 
   // put(bin) for the bin of each tile that a box touches.
   template <class Put>

@@ -57,42 +57,98 @@ bool hidden(const TileView& tile, int x0, int y0, int x1, int y1, float w) {
   return true;
 }
 
-template <class F>
-void draw_small_triangle(const TileView& tile, const ScreenSpace& space, const ScreenVertex& a,
-                         const ScreenVertex& b, const ScreenVertex& c, std::uint32_t primitive) {
-  const std::array<std::int32_t, 3> x{a.x, b.x, c.x}, y{a.y, b.y, c.y};
-  const Box<std::int32_t> box =
-      box_of_places(space, lane_min(lane_min(a.x, b.x), c.x), lane_min(lane_min(a.y, b.y), c.y),
-                    lane_max(lane_max(a.x, b.x), c.x), lane_max(lane_max(a.y, b.y), c.y));
-  const int x0 = std::max(box.x0, tile.box.x0), x1 = std::min(box.x1, tile.box.x1);
-  const int y0 = std::max(box.y0, tile.box.y0), y1 = std::min(box.y1, tile.box.y1);
-  if (hidden<F>(tile, x0, y0, x1, y1, lane_max(lane_max(a.w, b.w), c.w))) return;
-  const ScreenTriangle<float> t = screen_triangle<float, F>(x, y, {a.w, b.w, c.w});
-  const Mask<F> sure_depth(t.sure_depth);
+// A few small triangles of a tile, set up together: corner by corner what they are, and what drawing them reads.
+struct SmallTriangles {
+  static constexpr std::size_t kSize = 16;
+  template <class T>
+  using Each = std::array<T, kSize>;
 
-  const F unit(static_cast<float>(1 << space.bits)), doubt(t.doubt);
+  alignas(64) std::array<Each<std::int32_t>, 3> x, y;
+  alignas(64) std::array<Each<float>, 3> w;
+
+  alignas(64) Each<std::int32_t> x0, y0, x1, y1;  // box, cut to the tile
+  alignas(64) Each<float> nearest;                // the greatest w
+  // Of ScreenTriangle; 1 for true.
+  alignas(64) std::array<Each<float>, 3> dx, dy;
+  alignas(64) Each<float> doubt, w0, slope1, slope2, sure_side, sure_depth;
+};
+
+// What is left beyond the last repeats it.
+template <class Set>
+void load_small_triangles(const ScreenVertex* vertices, const Corners3* corners,
+                          const SmallTriangle* triangles, std::size_t size, SmallTriangles& to) {
+  for (std::size_t i = 0; i < SmallTriangles::kSize; ++i) {
+    const Corners3& corner = corners[triangles[std::min(i, size - 1)].triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ScreenVertex& vertex = vertices[corner[k]];
+      to.x[k][i] = vertex.x;
+      to.y[k][i] = vertex.y;
+      to.w[k][i] = vertex.w;
+    }
+  }
+}
+
+template <class F>
+void set_up_small_triangles(const TileView& tile, const ScreenSpace& space, SmallTriangles& of) {
+  using I = Ints<F>;
+  for (std::size_t i = 0; i < SmallTriangles::kSize; i += kLanes<F>) {
+    const std::array<I, 3> x{load<I>(&of.x[0][i]), load<I>(&of.x[1][i]), load<I>(&of.x[2][i])};
+    const std::array<I, 3> y{load<I>(&of.y[0][i]), load<I>(&of.y[1][i]), load<I>(&of.y[2][i])};
+    const std::array<F, 3> w{load<F>(&of.w[0][i]), load<F>(&of.w[1][i]), load<F>(&of.w[2][i])};
+    const auto least_of = [](const auto& v) { return lane_min(lane_min(v[0], v[1]), v[2]); };
+    const auto most_of = [](const auto& v) { return lane_max(lane_max(v[0], v[1]), v[2]); };
+    const Box<I> box = box_of_places(space, I(least_of(x)), I(least_of(y)), I(most_of(x)), I(most_of(y)));
+    store(I(lane_max(box.x0, I(tile.box.x0))), &of.x0[i]);
+    store(I(lane_max(box.y0, I(tile.box.y0))), &of.y0[i]);
+    store(I(lane_min(box.x1, I(tile.box.x1))), &of.x1[i]);
+    store(I(lane_min(box.y1, I(tile.box.y1))), &of.y1[i]);
+    store(F(most_of(w)), &of.nearest[i]);
+
+    const ScreenTriangle<F> t = screen_triangle<F>(x, y, w);
+    for (std::size_t k = 0; k < 3; ++k) {
+      store(t.dx[k], &of.dx[k][i]);
+      store(t.dy[k], &of.dy[k][i]);
+    }
+    store(t.doubt, &of.doubt[i]);
+    store(t.w0, &of.w0[i]);
+    store(t.slope1, &of.slope1[i]);
+    store(t.slope2, &of.slope2[i]);
+    store(select<F>(t.sure_side, F(1), F(0)), &of.sure_side[i]);
+    store(select<F>(t.sure_depth, F(1), F(0)), &of.sure_depth[i]);
+  }
+}
+
+template <class F>
+void draw_small_triangle(const TileView& tile, const ScreenSpace& space, const SmallTriangles& of,
+                         std::size_t i, std::uint32_t primitive) {
+  const int x0 = of.x0[i], y0 = of.y0[i], x1 = of.x1[i], y1 = of.y1[i];
+  if (hidden<F>(tile, x0, y0, x1, y1, of.nearest[i])) return;
+  const Mask<F> sure_side(of.sure_side[i] != 0), sure_depth(of.sure_depth[i] != 0);
+  const auto row = static_cast<float>(1 << space.bits);
+  const F unit(row), doubt(of.doubt[i]);
   std::uint64_t fragments = 0;
   for (int X = x0 - (x0 - tile.box.x0) % kLanes<F>; X < x1; X += kLanes<F>) {
     // E_k = across_k - down_k, the one constant along a column, the other along a row.
+    const F column = lane_numbers<F>() + F(static_cast<float>(X - x0));
     std::array<F, 3> across;
     for (std::size_t k = 0; k < 3; ++k)
-      across[k] = (F(static_cast<float>(x[(k + 1) % 3] - space.place_of_column(x0))) -
-                   (lane_numbers<F>() + F(static_cast<float>(X - x0))) * unit) *
-                  F(t.dy[k]);
-    const F column = lane_numbers<F>() + F(static_cast<float>(X - x0));
+      across[k] = (F(static_cast<float>(of.x[(k + 1) % 3][i] - space.place_of_column(x0))) - column * unit) *
+                  F(of.dy[k][i]);
     const Mask<F> in_box = column >= F(0) && column < F(static_cast<float>(x1 - x0));
+    std::array<float, 3> below;  // of each edge's first corner, in units; whole numbers, and exact
+    for (std::size_t k = 0; k < 3; ++k)
+      below[k] = static_cast<float>(of.y[(k + 1) % 3][i] - space.place_of_row(y0));
     for (int Y = y0; Y < y1; ++Y) {
       std::array<F, 3> e;
-      for (std::size_t k = 0; k < 3; ++k)
-        e[k] = across[k] - F(static_cast<float>(y[(k + 1) % 3] - space.place_of_row(Y)) * t.dx[k]);
-      const F least = lane_min(lane_min(e[0], e[1]), e[2]);
-      Mask<F> covered = in_box && least > doubt, doubtful = in_box && lane_abs(least) <= doubt;
-      if (!t.sure_side) {
-        covered = in_box && !in_box;
-        doubtful = in_box;
+      for (std::size_t k = 0; k < 3; ++k) {
+        e[k] = across[k] - F(below[k] * of.dx[k][i]);
+        below[k] -= row;
       }
+      const F least = lane_min(lane_min(e[0], e[1]), e[2]);
+      const Mask<F> covered = in_box && sure_side && least > doubt;
+      const Mask<F> doubtful = in_box && (!sure_side || lane_abs(least) <= doubt);
       F held;
-      const F w = F(t.w0) + (e[1] * F(t.slope1) + e[2] * F(t.slope2));
+      const F w = F(of.w0[i]) + (e[1] * F(of.slope1[i]) + e[2] * F(of.slope2[i]));
       const Mask<F> tied = keep_nearer<F>(tile, tile.index(X, Y), primitive, covered, sure_depth, w, held);
       fragments += static_cast<std::uint64_t>(count<F>(covered));
       if (any<F>(tied || doubtful)) {
@@ -108,10 +164,14 @@ template <class F>
 [[gnu::flatten]] void draw_small_triangles(const TileView& tile, const ScreenSpace& space,
                                            const ScreenVertex* vertices, const Corners3* corners,
                                            const SmallTriangle* triangles, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) {
-    const Corners3& corner = corners[triangles[i].triangle];
-    draw_small_triangle<F>(tile, space, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]],
-                           triangles[i].primitive);
+  constexpr std::size_t kSize = SmallTriangles::kSize;
+  SmallTriangles together;
+  for (std::size_t done = 0; done < size; done += kSize) {
+    const std::size_t some = std::min(kSize, size - done);
+    load_small_triangles<F>(vertices, corners, triangles + done, some, together);
+    set_up_small_triangles<F>(tile, space, together);
+    for (std::size_t i = 0; i < some; ++i)
+      draw_small_triangle<F>(tile, space, together, i, triangles[done + i].primitive);
   }
 }
 

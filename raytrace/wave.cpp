@@ -199,16 +199,16 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(primitive_ref(scene_, hit.primitive).kind)];
     const auto entry = static_cast<std::size_t>(batch.size);
     batch.t[entry] = hit.t;
+    batch.sample[entry] = static_cast<std::uint32_t>(i);
     if (eye) {
       const auto X = camera_.n * pixels_.x0 + static_cast<int>(i % columns());
       const auto Y = camera_.n * pixels_.y0 + static_cast<int>(i / columns());
-      batch.add(camera_.column_factor(X), camera_.row_factor(Y), &hit.primitive,
-                static_cast<std::uint32_t>(i), 1);
+      batch.add(camera_.column_factor(X), camera_.row_factor(Y), &hit.primitive, 1);
     } else {
       const Ray& ray = level.rays[i].path.ray;
       put(batch.origin, entry, ray.origin);
       put(batch.direction, entry, ray.direction);
-      batch.add(0, 0, &hit.primitive, static_cast<std::uint32_t>(i), 1);
+      batch.add(0, 0, &hit.primitive, 1);
     }
     if (batch.room() == 0) flush(level, batch, eye, stats);
   }

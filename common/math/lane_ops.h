@@ -49,6 +49,15 @@ int count(const Mask<F>& mask) {
     return stdx::popcount(mask);
 }
 
+// Of each 64-bit integer beside doubles F, the lower half.
+template <class F>
+auto low_halves(const Ints<F>& bits) {
+  if constexpr (kLanes<F> == 1)
+    return static_cast<std::int32_t>(bits);
+  else
+    return stdx::static_simd_cast<stdx::rebind_simd_t<std::int32_t, F>>(bits);
+}
+
 // One bit for each of F's lanes, the first lane's lowest.
 template <class F>
 [[gnu::always_inline]] inline std::uint32_t mask_bits(const Mask<F>& mask) {
@@ -66,6 +75,24 @@ Mask<Ints<F>> integer_mask(const Mask<F>& mask) {
     return mask;
   else
     return to_bits<F>(select<F>(mask, F(1), F(0))) != Ints<F>(0);
+}
+
+// And back.
+template <class F>
+Mask<F> real_mask(const Mask<Ints<F>>& mask) {
+  if constexpr (kLanes<F> == 1)
+    return mask;
+  else
+    return from_bits<F>(select<Ints<F>>(mask, Ints<F>(1), Ints<F>(0))) != F(0);
+}
+
+// The sum of all lanes of integers, in no order that could matter.
+template <class I>
+std::uint64_t sum(const I& a) {
+  if constexpr (kLanes<I> == 1)
+    return static_cast<std::uint64_t>(a);
+  else
+    return static_cast<std::uint64_t>(stdx::reduce(a));
 }
 
 // The least of all lanes.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Three lanes of numbers, and nothing more: what GLM is for scalars, for lane types (GLM refuses them).
+// Three lanes of numbers, and nothing more: what GLM is for scalars, for lane types (GLM refuses them). As a plain double,
+// it is what its memory held until it is set: arrays of them, filled step by step, are not zeroed first.
 #pragma once
 
 #include "common/math/lanes.h"
@@ -8,7 +9,7 @@ namespace sidelight {
 
 template <class F>
 struct Vec3 {
-  F x{}, y{}, z{};
+  F x, y, z;
 
   friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }

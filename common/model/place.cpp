@@ -70,10 +70,10 @@ Place locate_triangle(const Scene& scene, const Triangle& triangle, const Ray& r
   const Corners v = corners(scene, triangle);
   const TriangleView view = view_triangle(ray.origin, v.v0, v.v1, v.v2);
   const std::array<double, 3> e = edge_values(view, ray.direction);
-  const double sum = e[0] + e[1] + e[2];
+  const double per_sum = 1 / std::abs(e[0] + e[1] + e[2]);
 
   Place place;
-  place.barycentric = {e[0] / sum, e[1] / sum, e[2] / sum};
+  for (std::size_t k = 0; k < 3; ++k) place.barycentric[k] = std::abs(e[k]) * per_sum;
   place.point = v.v0 + place.barycentric[1] * (v.v1 - v.v0) + place.barycentric[2] * (v.v2 - v.v0);
   place.outward = outward_of(v);
   place.entering = view_side(view, counts) < 0;

@@ -10,9 +10,8 @@ glm::dvec3 interpolated_normal(const Scene& scene, std::uint32_t primitive, cons
   if (ref.kind != ObjectKind::mesh) return glm::dvec3(0);
   const Triangle& triangle = scene.triangles[ref.index];
   if (triangle.normal[0] == kNone) return glm::dvec3(0);
-  glm::dvec3 sum(0);
-  for (std::size_t k = 0; k < 3; ++k) sum += place.barycentric[k] * scene.normals[triangle.normal[k]];
-  return sum;
+  const auto part = [&](std::size_t k) { return place.barycentric[k] * scene.normals[triangle.normal[k]]; };
+  return (part(0) + part(1)) + part(2);
 }
 
 }  // namespace
@@ -24,7 +23,7 @@ Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, SignCount
   surface.material = primitive_material(scene, hit.primitive);
 
   const glm::dvec3 smooth = interpolated_normal(scene, hit.primitive, place);
-  const double side = glm::dot(smooth, surface.facing);   // 0 for a zero normal too
+  const double side = glm::dot(smooth, surface.facing);  // 0 for a zero normal too
   surface.normal = side == 0 ? surface.facing : glm::normalize(side < 0 ? -smooth : smooth);
   return surface;
 }

@@ -5,6 +5,7 @@
 
 #include "common/model/surface_kernel.h"
 #include "common/prefetch.h"
+#include "common/scene/primitive_finder.h"
 
 namespace sidelight {
 namespace {
@@ -14,8 +15,8 @@ using Group = SurfaceBatch::Group;
 Vec3<double> vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 // What the kernel reads of one primitive, into entry i; its material.
-std::uint32_t fetch(const Scene& scene, SurfaceBatch& batch, Group& group, std::size_t i) {
-  const std::uint32_t index = primitive_ref(scene, batch.primitive[i]).index;
+std::uint32_t fetch(const Scene& scene, std::uint32_t index, SurfaceBatch& batch, Group& group,
+                    std::size_t i) {
   if (batch.kind == ObjectKind::sphere) {
     const Sphere& sphere = scene.spheres[index];
     put(batch.vector[0], i, sphere.center);
@@ -29,11 +30,12 @@ std::uint32_t fetch(const Scene& scene, SurfaceBatch& batch, Group& group, std::
     return plane.material;
   }
   const Triangle& triangle = scene.triangles[index];
-  for (std::size_t k = 0; k < 3; ++k) put(batch.vector[k], i, scene.positions[triangle.vertex[k]]);
   const bool flat = triangle.normal[0] == kNone;
   (flat ? group.flat : group.smooth) = true;
-  for (std::size_t k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < 3; ++k) {
+    put(batch.vector[k], i, scene.positions[triangle.vertex[k]]);
     put(batch.vector[3 + k], i, flat ? glm::dvec3(0) : scene.normals[triangle.normal[k]]);
+  }
   return triangle.material;
 }
 
@@ -44,19 +46,6 @@ bool is_one(const SurfaceBatch& batch, std::size_t first) {
   for (std::size_t i = first; i < first + SurfaceBatch::kGroup; i += Numbers::size())
     unlike |= load<Numbers>(&batch.primitive[i]) ^ Numbers(batch.primitive[first]);
   return stdx::all_of(unlike == 0);
-}
-
-// Brings near what fetch() reads of a group's triangles, whose numbers alone say where it is.
-void prefetch_corners(const Scene& scene, const SurfaceBatch& batch, std::size_t first) {
-  if (is_one(batch, first)) return;
-  for (std::size_t i = first; i < first + SurfaceBatch::kGroup; ++i) {
-    if (i > first && batch.primitive[i] == batch.primitive[i - 1]) continue;
-    const Triangle& triangle = scene.triangles[primitive_ref(scene, batch.primitive[i]).index];
-    for (std::size_t k = 0; k < 3; ++k) {
-      prefetch(&scene.positions[triangle.vertex[k]]);
-      if (triangle.normal[k] != kNone) prefetch(&scene.normals[triangle.normal[k]]);
-    }
-  }
 }
 
 // Entries beyond the last, up to a whole group, repeat it, so that lanes are full of what is true somewhere.
@@ -75,21 +64,48 @@ void pad(SurfaceBatch& batch) {
   }
 }
 
-void fetch_group(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch, ShadingBatch& out,
-                 std::size_t first) {
+void prefetch_group(const Scene& scene, PrimitiveFinder& find, const SurfaceBatch& batch, std::size_t first) {
+  for (std::size_t i = first; i < first + SurfaceBatch::kGroup; ++i)
+    if (i == first || batch.primitive[i] != batch.primitive[i - 1])
+      prefetch_surface(scene, find(batch.primitive[i]));
+}
+
+// A group that goes on with the one triangle of the group before shares what was fetched for that.
+void fetch_group(const Scene& scene, const ShadingTables& tables, PrimitiveFinder& find, SurfaceBatch& batch,
+                 ShadingBatch& out, std::size_t first) {
   constexpr std::size_t kGroup = SurfaceBatch::kGroup;
   Group& group = batch.group[first / kGroup];
-  group = {};
-  group.one = is_one(batch, first);
+  group.first = first;
   if (group.one) {
-    const std::uint32_t material = fetch(scene, batch, group, first);
+    const Group& before = batch.group[first / kGroup - (first > 0 ? 1 : 0)];
+    const bool same = first > 0 && before.one && batch.primitive[first] == batch.primitive[first - 1];
+    if (same) group = before;
+    const std::uint32_t material =
+        same ? out.material[first - 1]
+             : fetch(scene, find(batch.primitive[first]).index, batch, group, first);
     group.shiny = is_shiny(tables.materials[material]);
     std::fill_n(&out.material[first], kGroup, material);
     return;
   }
   for (std::size_t i = first; i < first + kGroup; ++i) {
-    out.material[i] = fetch(scene, batch, group, i);
-    group.shiny |= is_shiny(tables.materials[out.material[i]]);
+    out.material[i] = fetch(scene, find(batch.primitive[i]).index, batch, group, i);
+    if (i == first || out.material[i] != out.material[i - 1])
+      group.shiny |= is_shiny(tables.materials[out.material[i]]);
+  }
+}
+
+void fetch_all(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch, ShadingBatch& out) {
+  constexpr std::size_t kGroup = SurfaceBatch::kGroup;
+  const auto size = static_cast<std::size_t>(batch.size);
+  for (std::size_t i = 0; i < size; i += kGroup) batch.group[i / kGroup] = {.one = is_one(batch, i)};
+  PrimitiveFinder find(scene);
+  const auto prefetch_next = [&](std::size_t i) {
+    if (!batch.prefetched && i < size && !batch.group[i / kGroup].one) prefetch_group(scene, find, batch, i);
+  };
+  prefetch_next(0);
+  for (std::size_t i = 0; i < size; i += kGroup) {
+    prefetch_next(i + kGroup);
+    fetch_group(scene, tables, find, batch, out, i);
   }
 }
 
@@ -118,20 +134,22 @@ void ask_again(const Scene& scene, const Camera& camera, const ShadingTables& ta
 
 }  // namespace
 
+void prefetch_surface(const Scene& scene, const PrimitiveRef& ref) {
+  if (ref.kind != ObjectKind::mesh) return;
+  const Triangle& triangle = scene.triangles[ref.index];
+  for (std::size_t k = 0; k < 3; ++k) {
+    prefetch(&scene.positions[triangle.vertex[k]]);
+    if (triangle.normal[k] != kNone) prefetch(&scene.normals[triangle.normal[k]]);
+  }
+}
+
 void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables,
                  SurfaceBatch& batch, ShadingBatch& out, SignCounts& counts) {
   out.size = batch.size;
   if (batch.size == 0) return;
   pad(batch);
   const auto size = static_cast<std::size_t>(batch.size);
-  const auto prefetch_group = [&](std::size_t i) {
-    if (batch.kind == ObjectKind::mesh && i < size) prefetch_corners(scene, batch, i);
-  };
-  prefetch_group(0);
-  for (std::size_t i = 0; i < size; i += SurfaceBatch::kGroup) {
-    prefetch_group(i + SurfaceBatch::kGroup);
-    fetch_group(scene, tables, batch, out, i);
-  }
+  fetch_all(scene, tables, batch, out);
 
   const SurfaceView view{vec(camera.eye), vec(camera.right), vec(camera.up), vec(camera.axis_part()),
                          tables.length_scale};

@@ -29,30 +29,30 @@ struct SurfaceBatch {
   int size = 0;
   alignas(64) Channel<double> column, row;  // Camera::column_factor, row_factor
   alignas(64) Channel<double> t;            // depth, where it is known; else a result, where it is asked for
-  alignas(64) Channel<std::uint32_t> primitive, sample;  // `sample` is the caller's own number
+  alignas(64) Channel<std::uint32_t> primitive, sample;  // `sample` is the caller's own number, if it has one
   bool has_t = false;                                    // t is given
   bool want_t = false;
-  bool own_rays = false;  // origin and direction are given, in place of column and row; has_t goes with it
+  bool prefetched = false;  // by whoever collects the batch
+  bool own_rays = false;    // origin and direction are given, in place of column and row; has_t goes with it
   alignas(64) Vectors origin, direction;
 
   int room() const { return kCapacity - size; }
-  // `count` <= room() neighbours in a row, from the one with this column factor and number.
-  void add(double first_column, double row_factor, const std::uint32_t* primitives,
-           std::uint32_t first_number, int count) {
+  // `count` <= room() neighbours in a row, from the one with this column factor.
+  void add(double first_column, double row_factor, const std::uint32_t* primitives, int count) {
     const auto to = static_cast<std::size_t>(size), added = static_cast<std::size_t>(count);
     for (std::size_t k = 0; k < added; ++k) column[to + k] = first_column + kTwice[k];
-    for (std::size_t k = 0; k < added; ++k) sample[to + k] = first_number + static_cast<std::uint32_t>(k);
     std::fill_n(&row[to], added, row_factor);
     std::copy_n(primitives, added, &primitive[to]);
     size += count;
   }
 
-  // What the kernel reads of the scene, entry by entry; of a group with one primitive, at the group's first entry only.
+  // What the kernel reads of the scene, entry by entry; of a group with one primitive, at entry Group::first only.
   // Triangles: three corners and three vertex normals (zero: none). Spheres: center, and radius in vector[1][0]. Planes:
   // point and normal.
   alignas(64) std::array<Vectors, 6> vector;
   struct Group {
-    bool one = false;     // all of one primitive
+    bool one = false;  // all of one primitive
+    std::size_t first = 0;
     bool flat = false;    // some triangle has no vertex normals
     bool smooth = false;  // some triangle has
     bool shiny = false;   // V is asked for
@@ -76,6 +76,9 @@ inline void put(SurfaceBatch::Vectors& to, std::size_t i, const glm::dvec3& v) {
   to[1][i] = v.y;
   to[2][i] = v.z;
 }
+
+// Brings near what surfaces_at() reads of a primitive of this kind and index; its own record is read for it.
+void prefetch_surface(const Scene& scene, const PrimitiveRef& ref);
 
 // Fills entries [0, size) of `out`, and of what batch asks for. The same bytes for every isa.
 void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables,

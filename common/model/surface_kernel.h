@@ -22,7 +22,9 @@ F sphere_clearance(const Vec3<F>& outward, const Vec3<F>& center, const F& radiu
 template <class F>
 void sphere_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out, std::size_t i) {
   SurfaceLanes<F> lanes(batch, i);
-  const Vec3<F> d = lanes.direction(view), center = lanes.scene_vector(0);
+  Vec3<F> d;
+  lanes.direction(view, d);
+  const Vec3<F> center = lanes.scene_vector(0);
   const F radius = lanes.scene_number(1, 0), r2 = radius * radius;
   const Vec3<F> f = lanes.origin(view) - center;
   const F dd = dot(d, d), b = -dot(f, d);
@@ -63,7 +65,9 @@ F plane_clearance(const Vec3<F>& normal, const Vec3<F>& on_plane, const Vec3<F>&
 template <class F>
 void plane_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out, std::size_t i) {
   SurfaceLanes<F> lanes(batch, i);
-  const Vec3<F> d = lanes.direction(view), on_plane = lanes.scene_vector(0), outward = lanes.scene_vector(1);
+  Vec3<F> d;
+  lanes.direction(view, d);
+  const Vec3<F> on_plane = lanes.scene_vector(0), outward = lanes.scene_vector(1);
   const Vec3<F> origin = lanes.origin(view);
   const F along = dot(outward, d);
   const F t = batch.has_t ? lanes.given_t() : dot(outward, on_plane - origin) / along;
@@ -82,7 +86,7 @@ void plane_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& 
 
 template <class F>
 void surfaces_of_batch(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out) {
-  if (batch.kind == ObjectKind::mesh) return surfaces_of_triangles<F>(view, batch, out);
+  if (batch.kind == ObjectKind::mesh) return TriangleSurfaces<F>(view, batch, out).find_all();
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>) {
     if (batch.kind == ObjectKind::sphere)
       sphere_surfaces<F>(view, batch, out, i);

@@ -31,18 +31,23 @@ Vec3<F> normalized(const Vec3<F>& v) {
   return (F(1) / square_root(dot(v, v))) * v;
 }
 
+// V
+template <class F>
+Vec3<F> to_viewer(const Vec3<F>& direction) {
+  return (F(-1) / square_root(dot(direction, direction))) * direction;
+}
+
 // ---- From and to the batches ----
 
 template <class F>
 class SurfaceLanes {
  public:
-  SurfaceLanes(SurfaceBatch& batch, std::size_t first)
-      : batch_(batch), first_(first), group_(first / SurfaceBatch::kGroup * SurfaceBatch::kGroup) {}
+  SurfaceLanes(SurfaceBatch& batch, std::size_t first) : batch_(batch), first_(first) {}
 
   const SurfaceBatch::Group& group() const { return batch_.group[first_ / SurfaceBatch::kGroup]; }
   F scene_number(std::size_t vector, std::size_t component) const {
     const auto& channel = batch_.vector[vector][component];
-    return group().one ? F(channel[group_]) : load<F>(&channel[first_]);
+    return group().one ? F(channel[group().first]) : load<F>(&channel[first_]);
   }
   Vec3<F> scene_vector(std::size_t i) const {
     return {scene_number(i, 0), scene_number(i, 1), scene_number(i, 2)};
@@ -50,10 +55,13 @@ class SurfaceLanes {
   Vec3<F> origin(const SurfaceView& view) const {
     return batch_.own_rays ? own(batch_.origin) : wide<F>(view.eye);
   }
-  Vec3<F> direction(const SurfaceView& view) const {
-    if (batch_.own_rays) return own(batch_.direction);
-    const F column = load<F>(&batch_.column[first_]), row = load<F>(&batch_.row[first_]);
-    return (column * wide<F>(view.right) + row * wide<F>(view.up)) + wide<F>(view.axis);
+  void direction(const SurfaceView& view, Vec3<F>& to) const {
+    if (batch_.own_rays) {
+      to = own(batch_.direction);
+    } else {
+      const F column = load<F>(&batch_.column[first_]), row = load<F>(&batch_.row[first_]);
+      to = (column * wide<F>(view.right) + row * wide<F>(view.up)) + wide<F>(view.axis);
+    }
   }
   F given_t() const { return load<F>(&batch_.t[first_]); }
   void put_t(const F& t) { store(t, &batch_.t[first_]); }
@@ -66,21 +74,13 @@ class SurfaceLanes {
   void put_normal(const Vec3<F>& normal) { put(normal, batch_.normal); }
   void put_doubt(const Mask<F>& sure) {
     store(select<F>(sure, F(0), F(1)), &batch_.doubtful[first_]);
-    note_doubt(sure);
-  }
-  // Besides what is in doubt already.
-  void add_doubt(const Mask<F>& sure) {
-    store(select<F>(sure, load<F>(&batch_.doubtful[first_]), F(1)), &batch_.doubtful[first_]);
-    note_doubt(sure);
-  }
-
- private:
-  void note_doubt(const Mask<F>& sure) {
     if constexpr (kLanes<F> == 1)
       batch_.any_doubtful |= !sure;
     else
       batch_.any_doubtful |= !stdx::all_of(sure);
   }
+
+ private:
   Vec3<F> own(const SurfaceBatch::Vectors& from) const {
     return {load<F>(&from[0][first_]), load<F>(&from[1][first_]), load<F>(&from[2][first_])};
   }
@@ -91,7 +91,7 @@ class SurfaceLanes {
   }
 
   SurfaceBatch& batch_;
-  std::size_t first_, group_;
+  std::size_t first_;
 };
 
 template <class F>
@@ -114,7 +114,7 @@ void put_point(const SurfaceView& view, const Vec3<F>& point, const Vec3<F>& nor
                bool shiny, ShadingBatch& out, std::size_t i) {
   put_position(view, point, out, i);
   put_rounded(normal, out.normal, i);
-  if (shiny) put_rounded(-normalized(direction), out.to_viewer, i);
+  if (shiny) put_rounded(to_viewer(direction), out.to_viewer, i);
 }
 
 }  // namespace sidelight

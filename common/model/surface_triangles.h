@@ -2,8 +2,6 @@
 // surface_kernel.h for triangles, whose lanes have more to do.
 #pragma once
 
-#include <memory>
-
 #include "common/model/surface_lanes.h"
 
 namespace sidelight {
@@ -36,8 +34,7 @@ F triangle_clearance(const Vec3<F>& outward, const Vec3<F>& v0, const Vec3<F>& v
 //   depth: w1 <= |e1| + |a0| + |a1| <= 2 (|a0| + |a1|), so weight <= 4 sqrt(S T) with S = |a0|² + |a1|² + |a2|²,
 //   T = |e1|² + |e2|²; |a0| . weight <= sqrt(3 S) 4 sqrt(S T) <= 2^31 |a0 . n| iff S² T <= 2^56.4 (a0 . n)².
 template <class F>
-TriangleLanes<F> triangle_lanes(const SurfaceLanes<F>& lanes, const Vec3<F>& origin, bool want_t) {
-  TriangleLanes<F> out;
+void view_triangles(const SurfaceLanes<F>& lanes, const Vec3<F>& origin, bool want_t, TriangleLanes<F>& out) {
   const Vec3<F> v1 = lanes.scene_vector(1), v2 = lanes.scene_vector(2);
   out.v0 = lanes.scene_vector(0);
   out.e1 = v1 - out.v0;
@@ -67,7 +64,6 @@ TriangleLanes<F> triangle_lanes(const SurfaceLanes<F>& lanes, const Vec3<F>& ori
     out.depth_bound = out.lengths2 * (dot(out.e1, out.e1) + dot(out.e2, out.e2));
     out.sure_depth = out.depth_bound * out.lengths2 <= F(0x1p56) * (out.a0_n * out.a0_n);
   }
-  return out;
 }
 
 // N and whether it is sure. With vertex normals of zero, Nv. Of the sign of smooth . facing that of smooth . n is told
@@ -76,106 +72,129 @@ template <class F>
 Vec3<F> triangle_normal(const TriangleLanes<F>& triangle, const std::array<F, 3>& barycentric,
                         const SurfaceBatch::Group& group, Mask<F>& sure) {
   if (!group.smooth) return triangle.facing;
-  Vec3<F> smooth{F(0), F(0), F(0)};
-  for (std::size_t k = 0; k < 3; ++k) smooth = smooth + barycentric[k] * triangle.normal[k];
+  const auto& [n0, n1, n2] = triangle.normal;
+  const Vec3<F> smooth = (barycentric[0] * n0 + barycentric[1] * n1) + barycentric[2] * n2;
   const F side = dot(smooth, triangle.facing), size_of_smooth = size(smooth);
-  const Mask<F> none = size_of_smooth == F(0);
   const Mask<F> sure_side = lane_abs(side) > F(0x1p-48) * (size_of_smooth * triangle.facing_size);
-  const Vec3<F> turned = select<F>(side < F(0), -smooth, smooth);
+  const F length2 = dot(smooth, smooth);
+  const auto turned = [&](const F& divisor) {
+    const F per_length = F(1) / square_root(divisor);
+    return select<F>(side < F(0), -per_length, per_length) * smooth;
+  };
   if (!group.flat) {
     sure = sure && sure_side;
-    return normalized(turned);
+    return turned(length2);
   }
+  const Mask<F> none = size_of_smooth == F(0);
   sure = sure && (sure_side || none);
-  const Vec3<F> unit_or_x = select<F>(none, Vec3<F>{F(1), F(0), F(0)}, turned);
-  return select<F>(none, triangle.facing, normalized(unit_or_x));
+  return select<F>(none, triangle.facing, turned(select<F>(none, F(1), length2)));
 }
 
-// Where one may be made: nothing is done to it before.
-template <class F>
-union RoomForTriangle {
-  RoomForTriangle() {}
-  TriangleLanes<F> lanes;
-};
-
-// What is known of a sample between the steps below. Arrays, which are not zeroed first as a Vec3 would be.
+// What is known of a sample between the steps below.
 template <class F>
 struct SampleLanes {
-  std::array<F, 3> direction, barycentric;
+  Vec3<F> direction;
+  std::array<F, 3> barycentric;
+  Mask<F> sure;
 };
 
 // d . weight <= |d| sum |a_i| |a_j| <= |d| S, and 6 u of it may be 2^-20 |sum|.
 // Depth: |d| 4 sqrt(S T) <= 2^31 |d . n| iff |d|² S T <= 2^58 (d . n)²; 2^57 for the rounding of the bound.
 template <class F>
-void locate_sample(const SurfaceView& view, const TriangleLanes<F>& triangle, SurfaceBatch& batch,
-                   std::size_t i, SampleLanes<F>& sample) {
-  SurfaceLanes<F> lanes(batch, i);
-  const Vec3<F> d = lanes.direction(view);
+void locate_sample(const TriangleLanes<F>& triangle, SurfaceBatch& batch, std::size_t i,
+                   SampleLanes<F>& sample) {
+  const Vec3<F>& d = sample.direction;
   std::array<F, 3> e{dot(d, triangle.edge[0]), dot(d, triangle.edge[1]), dot(d, triangle.edge[2])};
   const F all = (e[0] + e[1]) + e[2], size_of_d = size(d);
-  Mask<F> sure = triangle.sure && size_of_d * triangle.lengths2 <= F(0x1p30) * lane_abs(all);
-  const Mask<F> negative = all < F(0);
-  for (F& each : e) each = select<F>((each < F(0)) != negative, F(0), each);
-  const F sum = (e[0] + e[1]) + e[2];
-  const F first = lanes.group().smooth ? e[0] / sum : F(0);  // only the normal asks for it
-  sample.direction = {d.x, d.y, d.z};
-  sample.barycentric = {first, e[1] / sum, e[2] / sum};
-  if (batch.want_t && !batch.has_t) {
-    const F d_n = dot(d, triangle.n);
-    const F t = triangle.a0_n / d_n;
-    sure = sure && triangle.sure_depth && t > F(0) &&
-           (size_of_d * size_of_d) * triangle.depth_bound <= F(0x1p57) * (d_n * d_n);
-    lanes.put_t(t);
-  }
-  lanes.put_doubt(sure);
+  sample.sure = triangle.sure && size_of_d * triangle.lengths2 <= F(0x1p30) * lane_abs(all);
+  // What rounding gave the other sign is 0.
+  const F sign = select<F>(all < F(0), F(-1), F(1));
+  for (F& each : e) each = lane_max(F(0), sign * each);
+  const F per_sum = F(1) / ((e[0] + e[1]) + e[2]);
+  sample.barycentric = {e[0] * per_sum, e[1] * per_sum, e[2] * per_sum};
+  if (!batch.want_t || batch.has_t) return;
+  const F d_n = dot(d, triangle.n);
+  const F t = triangle.a0_n / d_n;
+  sample.sure = sample.sure && triangle.sure_depth && t > F(0) &&
+                (size_of_d * size_of_d) * triangle.depth_bound <= F(0x1p57) * (d_n * d_n);
+  SurfaceLanes<F>(batch, i).put_t(t);
 }
 
-// Step by step, each for all entries, so that the processor has many short chains of operations at hand and not a few
-// long ones.
+// The vectors from `first` on, a few at a time, step by step, each step for all of them: the processor has several short
+// chains of operations at hand and not a few long ones, and what lies between the steps stays in the first cache.
 template <class F>
-void surfaces_of_triangles(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out) {
-  constexpr auto kCount = static_cast<std::size_t>(kLanes<F>), kVectors = SurfaceBatch::kCapacity / kCount;
-  const std::size_t vectors = (static_cast<std::size_t>(batch.size) + kCount - 1) / kCount;
-  std::array<RoomForTriangle<F>, kVectors> room;
-  std::array<const TriangleLanes<F>*, kVectors> triangle;
-  std::array<SampleLanes<F>, kVectors> sample;
+class TriangleSurfaces {
+ public:
+  TriangleSurfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out)
+      : view_(view), batch_(batch), out_(out) {}
 
-  std::uint32_t last = kNone;  // the one triangle that the vector before is of
-  for (std::size_t v = 0; v < vectors; ++v) {
-    const SurfaceLanes<F> lanes(batch, v * kCount);
-    const std::uint32_t one = lanes.group().one && !batch.own_rays ? batch.primitive[v * kCount] : kNone;
-    if (one != kNone && one == last) {
-      triangle[v] = triangle[v - 1];
-    } else {
-      triangle[v] = std::construct_at(
-          &room[v].lanes, triangle_lanes(lanes, lanes.origin(view), batch.want_t && !batch.has_t));
+  void find_all() {
+    const auto size = static_cast<std::size_t>(batch_.size);
+    for (std::size_t first = 0; first < size; first += kVectors * kCount)
+      find(first, std::min(kVectors, (size - first + kCount - 1) / kCount));
+  }
+
+ private:
+  static constexpr auto kCount = static_cast<std::size_t>(kLanes<F>);
+  static constexpr std::size_t kVectors = 8;
+
+  void find(std::size_t first, std::size_t vectors) {
+    const auto for_each_vector = [&](const auto& visit) {
+      for (std::size_t v = 0; v < vectors; ++v) visit(v, first + v * kCount);
+    };
+    for_each_vector([&](std::size_t v, std::size_t i) { triangle_[v] = view_triangles_at(i); });
+    for_each_vector([&](std::size_t v, std::size_t i) {
+      SurfaceLanes<F>(batch_, i).direction(view_, sample_[v].direction);
+    });
+    for_each_vector(
+        [&](std::size_t v, std::size_t i) { locate_sample(*triangle_[v], batch_, i, sample_[v]); });
+    for_each_vector([&](std::size_t v, std::size_t i) { put_point(*triangle_[v], sample_[v], i); });
+    for_each_vector([&](std::size_t v, std::size_t i) { put_normal(*triangle_[v], sample_[v], i); });
+    for_each_vector([&](std::size_t v, std::size_t i) {
+      if (SurfaceLanes<F>(batch_, i).group().shiny)
+        put_rounded(to_viewer(sample_[v].direction), out_.to_viewer, i);
+    });
+  }
+
+  // A group that shows the triangle of the one before, and from the same place, needs no other view of it.
+  const TriangleLanes<F>* view_triangles_at(std::size_t i) {
+    const SurfaceLanes<F> lanes(batch_, i);
+    const std::uint32_t one = lanes.group().one && !batch_.own_rays ? batch_.primitive[i] : kNone;
+    if (one == kNone || one != last_) {
+      last_room_ = (last_room_ + 1) % kVectors;
+      view_triangles(lanes, lanes.origin(view_), batch_.want_t && !batch_.has_t, room_[last_room_]);
     }
-    last = one;
+    last_ = one;
+    return &room_[last_room_];
   }
-  for (std::size_t v = 0; v < vectors; ++v) locate_sample(view, *triangle[v], batch, v * kCount, sample[v]);
-  for (std::size_t v = 0; v < vectors; ++v) {
-    const TriangleLanes<F>& at = *triangle[v];
-    const std::array<F, 3>& barycentric = sample[v].barycentric;
-    const Vec3<F> point = (at.v0 + barycentric[1] * at.e1) + barycentric[2] * at.e2;
-    put_position(view, point, out, v * kCount);
-    SurfaceLanes<F> lanes(batch, v * kCount);
-    if (!lanes.wants_leaving()) continue;
+
+  void put_point(const TriangleLanes<F>& at, const SampleLanes<F>& sample, std::size_t i) {
+    const Vec3<F> point = (at.v0 + sample.barycentric[1] * at.e1) + sample.barycentric[2] * at.e2;
+    put_position(view_, point, out_, i);
+    SurfaceLanes<F> lanes(batch_, i);
+    if (!lanes.wants_leaving()) return;
     lanes.put_leaving(point, at.facing, at.clearance);
-    put_rounded(at.facing, out.facing, v * kCount);
+    put_rounded(at.facing, out_.facing, i);
   }
-  for (std::size_t v = 0; v < vectors; ++v) {
-    SurfaceLanes<F> lanes(batch, v * kCount);
-    Mask<F> sure(true);
-    const Vec3<F> normal = triangle_normal(*triangle[v], sample[v].barycentric, lanes.group(), sure);
-    put_rounded(normal, out.normal, v * kCount);
+
+  void put_normal(const TriangleLanes<F>& at, const SampleLanes<F>& sample, std::size_t i) {
+    SurfaceLanes<F> lanes(batch_, i);
+    Mask<F> sure = sample.sure;
+    const Vec3<F> normal = triangle_normal(at, sample.barycentric, lanes.group(), sure);
+    put_rounded(normal, out_.normal, i);
     if (lanes.wants_leaving()) lanes.put_normal(normal);
-    lanes.add_doubt(sure);
+    lanes.put_doubt(sure);
   }
-  for (std::size_t v = 0; v < vectors; ++v) {
-    const auto& [x, y, z] = sample[v].direction;
-    if (SurfaceLanes<F>(batch, v * kCount).group().shiny)
-      put_rounded(-normalized(Vec3<F>{x, y, z}), out.to_viewer, v * kCount);
-  }
-}
+
+  const SurfaceView& view_;
+  SurfaceBatch& batch_;
+  ShadingBatch& out_;
+  // The views last made: a vector's is not overwritten before those of kVectors others are made.
+  std::array<TriangleLanes<F>, kVectors> room_;
+  std::size_t last_room_ = 0;
+  std::uint32_t last_ = kNone;  // the one triangle that the vector before is of
+  std::array<const TriangleLanes<F>*, kVectors> triangle_;
+  std::array<SampleLanes<F>, kVectors> sample_;
+};
 
 }  // namespace sidelight

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "common/picture/frame.h"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "common/large_pages.h"
 #include "common/scene/scene.h"
 
 namespace sidelight {
 namespace {
-
-constexpr std::size_t kLargePages = std::size_t{4} << 20;  // bytes from which they are worth it
 
 bool asked_for(const RenderOptions& options, Layer layer) { return (options.layers & layer_bit(layer)) != 0; }
 
@@ -24,18 +20,11 @@ Rect stored_window(int width, int height, const RenderOptions& options) {
   return cropped ? options.crop : Rect{0, 0, width, height};
 }
 
-// Zeros, `size` of them. Memory is new in most frames, and the system hands it out page by page as it is touched: at 1440p
-// that took longer than the zeros in it. So large arrays ask for large pages; a system without them does as before.
+// Zeros, `size` of them. Memory is new in most frames: at 1440p, to get it page by page took longer than the zeros in it.
 template <class T>
-void make_zeros(std::vector<T>& array, std::size_t size) {
+void make_zeros(std::vector<T>& array, std::size_t size, int threads) {
   array.reserve(size);
-#ifdef MADV_HUGEPAGE
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto begin = reinterpret_cast<std::uintptr_t>(array.data());
-  const std::uintptr_t first = (begin + page - 1) / page * page,
-                       end = (begin + size * sizeof(T)) / page * page;
-  if (end > first + kLargePages) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
-#endif
+  wish_large_pages(array.data(), size * sizeof(T), threads);
   array.resize(size);
 }
 
@@ -94,19 +83,20 @@ Frame make_frame(int width, int height, int n, const RenderOptions& options) {
   assert(frame.window.y0 >= 0 && frame.window.y0 < frame.window.y1 && frame.window.y1 <= height);
 
   const std::size_t pixels = frame.pixels();
-  make_zeros(frame.color, pixels);
+  const auto make = [&](auto& array, std::size_t size) { make_zeros(array, size, options.threads); };
+  make(frame.color, pixels);
   for (std::size_t i = 0; i < frame.rgb.size(); ++i) {
-    if (asked_for(options, static_cast<Layer>(i))) make_zeros(frame.rgb[i], pixels);
+    if (asked_for(options, static_cast<Layer>(i))) make(frame.rgb[i], pixels);
   }
-  if (asked_for(options, Layer::depth)) make_zeros(frame.depth, pixels);
-  if (asked_for(options, Layer::object)) make_zeros(frame.object_id, pixels);
-  if (asked_for(options, Layer::primitive)) make_zeros(frame.primitive_id, pixels);
-  if (asked_for(options, Layer::normal)) make_zeros(frame.normal, pixels);
-  if (asked_for(options, Layer::cost)) make_zeros(frame.cost, pixels);
+  if (asked_for(options, Layer::depth)) make(frame.depth, pixels);
+  if (asked_for(options, Layer::object)) make(frame.object_id, pixels);
+  if (asked_for(options, Layer::primitive)) make(frame.primitive_id, pixels);
+  if (asked_for(options, Layer::normal)) make(frame.normal, pixels);
+  if (asked_for(options, Layer::cost)) make(frame.cost, pixels);
   if (options.keep_samples) {
     const std::size_t samples = pixels * static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-    make_zeros(frame.sample_primitive, samples);
-    make_zeros(frame.sample_depth, samples);
+    make(frame.sample_primitive, samples);
+    make(frame.sample_depth, samples);
   }
   return frame;
 }

@@ -65,7 +65,7 @@ struct Frame;
 struct RenderOptions {
   int threads = 0;  // 0: all cores
   Isa isa = best_isa();
-  int tile = 32;              // edge of a tile in pixels; changes no bit of the picture
+  int tile = 64;              // edge of a tile in pixels, at most; changes no bit of the picture
   LayerMask layers = 0;       // which layers to fill
   bool keep_samples = false;  // fill Frame::sample_primitive and sample_depth
   Rect crop;                  // empty: the whole picture

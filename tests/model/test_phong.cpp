@@ -33,7 +33,7 @@ std::array<T, 3> triple(const glm::dvec3& v) {
 // At the origin, facing +z, seen from straight above.
 template <class T>
 ShadingPoint<T> point_facing_z() {
-  ShadingPoint<T> point;
+  ShadingPoint<T> point{};
   point.normal = point.facing = point.to_viewer = {0, 0, 1};
   point.ambient = vec<T>({0.25, 0.5, 0.75});
   point.diffuse = vec<T>({0.5, 0.25, 0.125});
@@ -240,7 +240,7 @@ TEST_CASE("float and double agree to the rounding of float") {
     const auto shininess = static_cast<float>(random.log_uniform(1, 100));
     const auto evaluate = [&]<class T>(T) {
       const auto same = [](const Vec3<float>& v) { return Vec3<T>{v.x, v.y, v.z}; };
-      ShadingPoint<T> point;
+      ShadingPoint<T> point{};
       point.high = same(at);
       point.normal = point.facing = same(normal);
       point.to_viewer = same(to_viewer);

@@ -42,7 +42,7 @@ Scene scene_with_lights(Random& random) {
 ShadingTables tables_of(const Scene& scene, Random& random) {
   ShadingTables tables = make_shading_tables(scene, needs_of(scene));
   for (int i = 0; i < 20; ++i) {
-    ShadingMaterial material;
+    ShadingMaterial material{};
     material.ambient = to_float(colour(random));
     material.diffuse = to_float(colour(random));
     material.specular = to_float(i % 5 == 4 ? glm::dvec3(0) : colour(random));
@@ -54,7 +54,7 @@ ShadingTables tables_of(const Scene& scene, Random& random) {
 }
 
 struct Entry {
-  ShadingPoint<float> point;
+  ShadingPoint<float> point{};
   std::uint32_t material;
 };
 
@@ -205,7 +205,7 @@ TEST_CASE("shading lengths are scaled by a power of two, which light and attenua
     scene.camera.eye = glm::dvec3(0, 0, 8) * unit;
     const ShadingTables tables = make_shading_tables(scene, needs_of(scene));
     CHECK(tables.length_scale == std::exp2(-k - 3));
-    ShadingPoint<float> point;
+    ShadingPoint<float> point{};
     point.normal = point.facing = {0, 0, 1};
     point.diffuse = {1, 1, 1};
     // N.L = 4/5, 1/f = 9.75; four roundings of 2^-24 in L, one each in distance, f and the two products

@@ -136,7 +136,7 @@ Outcome compared(Isa isa, const Mode& mode) {
               batch.origin[static_cast<std::size_t>(axis)][i] = ray.origin[axis];
               batch.direction[static_cast<std::size_t>(axis)][i] = ray.direction[axis];
             }
-            batch.add(camera.column_factor(X), camera.row_factor(Y), &primitive, 0, 1);
+            batch.add(camera.column_factor(X), camera.row_factor(Y), &primitive, 1);
             rays.push_back(ray);
             hits.push_back(hit);
             // Sizes of all kinds: whole batches, and less.
