@@ -32,6 +32,7 @@ EyePackets::EyePackets(const Prepared& prepared, const Camera& camera, Isa isa)
   packet_.reach = reach_of(prepared, camera.eye);
   // place.h: what is near lies within 10 (step + 32 u reach) of the place, up to 16 reach away: below 2^-40 reach.
   packet_.near_error = 0x1p-39;
+  packet_.lattice = true;
   packet_.ask = ask;
   packet_.context = this;
 }
@@ -69,10 +70,9 @@ void EyePackets::load(int X0, int Y0, int X1, int Y1, std::size_t first, std::si
         }
   packet_.size = static_cast<int>(i);
   packet_.w.fill(0);
-  packet_.primitive.fill(-1);
-  packet_.asked.fill(false);
   packet_.W = camera_.direction(middle_X, middle_Y);
-  finish(packet_);
+  finish_places(packet_);
+  start(packet_);
 }
 
 // As nearest(): before what is kept, by depth and number.

@@ -2,7 +2,7 @@
 // A packet against the spheres of a leaf, one by one. See packet_kernel.h.
 #pragma once
 
-#include "raytrace/packet_keep.h"
+#include "raytrace/packet_setup.h"
 
 namespace sidelight::raytrace {
 
@@ -53,10 +53,11 @@ std::uint32_t groups_met(const RayPacket& p, const SphereSetup& s) {
   const float less_q = static_cast<float>(q) * (1 - 0x1p-20f);
   std::uint32_t bits = 0;
   for (std::size_t g = 0; g < static_cast<std::size_t>(p.groups); g += kLanes<F>) {
-    const F x(static_cast<float>(s.b_u)), y(static_cast<float>(s.b_v));
-    const F middle =
-        (x * load<F>(&p.group_u[g]) + y * load<F>(&p.group_v[g])) + F(static_cast<float>(s.b_w) + error);
-    const F b = middle + (lane_abs<F>(x) * load<F>(&p.half_u[g]) + lane_abs<F>(y) * load<F>(&p.half_v[g]));
+    const auto greatest = [&](double x, const std::array<RayPacket::PerGroup<float>, 2>& of) {
+      return F(static_cast<float>(x)) * load<F>(&of[x >= 0 ? 1 : 0][g]);
+    };
+    const F b = (greatest(s.b_u, p.group_u) + greatest(s.b_v, p.group_v)) +
+                F(static_cast<float>(s.b_w) + error);
     const F square = b * b * F(1 + 0x1p-20f), discriminant = square - load<F>(&p.least_square[g]) * F(less_q);
     const F w = (b + square_root(lane_max<F>(discriminant, F(0)))) * F((1 + 0x1p-12f) / less_q);
     bits |= mask_bits<F>(b >= F(0) && discriminant >= F(0) && w >= load<F>(&p.least_w[g])) << g;
@@ -87,12 +88,13 @@ bool test_spheres(RayPacket& p, const SphereSetup& s, std::size_t ray, std::uint
   const Mask<F> may = state >= F(0), met = state > F(0);
   if (!any<F>(may)) return false;
   // An unclear one has no depth, so it is asked wherever it is.
-  return keep_nearer<F>(p, ray, primitive, met, may, select<F>(met, load<F>(ws.data()), F(0)),
-                        select<F>(met, load<F>(w_errors.data()), F(kInfinity)), s.sure, counts);
+  const Mask<F> clear = s.sure ? met : Mask<F>(false);
+  return keep_nearer<F>(p, ray, primitive, clear, may, select<F>(clear, load<F>(ws.data()), F(0)),
+                        select<F>(clear, load<F>(w_errors.data()), F(kInfinity)), counts);
 }
 
 template <class F, class D>
-void test_leaf(const Prepared& prepared, const SphereLeaves& leaves, std::uint32_t first, std::uint32_t count,
+void test_leaf(const Prepared& prepared, const PacketAxes&, const SphereLeaves& leaves, std::uint32_t first, std::uint32_t count,
                RayPacket& p, SignCounts& counts) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t primitive = leaves.bvh.items[first + i];

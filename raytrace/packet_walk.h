@@ -78,7 +78,7 @@ std::uint32_t meet_boxes(const BvhNode& node, const PacketPlanes& planes,
 }
 
 template <class F, class B, class D, class Tree>
-void walk_packet(const Prepared& prepared, const Tree& leaves, RayPacket& p, SignCounts& counts) {
+void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& leaves, RayPacket& p, SignCounts& counts) {
   const Bvh& bvh = leaves.bvh;
   if (bvh.nodes.empty() || p.groups == 0) return;
   const PacketPlanes planes = packet_planes<B>(p, bvh);
@@ -97,7 +97,7 @@ void walk_packet(const Prepared& prepared, const Tree& leaves, RayPacket& p, Sig
     p.budget -= top.count > 0 ? 8 : 1;
     if (p.budget < 0) return;
     if (top.count > 0) {
-      test_leaf<F, D>(prepared, leaves, top.first, top.count, p, counts);
+      test_leaf<F, D>(prepared, axes, leaves, top.first, top.count, p, counts);
       continue;
     }
     ++counts.nodes;

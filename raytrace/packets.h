@@ -30,6 +30,7 @@ struct RayPacket {
   double place_error = 0;  // u and v may be off by this
   double near_error = 0;   // what is nearer to a ray than this times its distance is doubtful as well
   double reach = 0;        // greatest coordinate of all that can be met, and of the origin
+  bool lattice = false;    // whether all u and v are whole numbers
   alignas(64) PerRay<float> u, v;
   alignas(64) PerRay<float> w;  // what counts is nearer than 1/w; 0: anything. Then of what is kept
   // What is kept: the nearest, or of shadow rays some blocker; -1: none.
@@ -45,8 +46,8 @@ struct RayPacket {
   // Derived by finish().
   int groups = 0;
   float extent_u = 0, extent_v = 0;
-  alignas(64) PerGroup<float> group_u, group_v, half_u, half_v;
-  alignas(64) PerGroup<float> least_w;  // of its rays
+  alignas(64) std::array<PerGroup<float>, 2> group_u, group_v;  // the least and the greatest of its rays
+  alignas(64) PerGroup<float> least_w;                          // likewise
   float least = 0;
   // Where there are spheres: d . d, and the least of each group.
   alignas(64) PerRay<double> square;
@@ -57,8 +58,10 @@ struct RayPacket {
   void* context = nullptr;
 };
 
-// Fills what is derived. Entries beyond `size`, up to whole groups, become rays that ask for nothing.
-void finish(RayPacket& packet);
+// Fills what is derived of u and v; entries beyond `size`, up to whole groups, repeat the last ray.
+void finish_places(RayPacket& packet);
+// Then what is derived of w; nothing is kept yet, and entries beyond `size` ask for nothing.
+void start(RayPacket& packet);
 
 // Meets everything in the scene that casts shadows (any_hit), or simply everything, as far as the budget goes.
 void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, SignCounts& counts);

@@ -140,7 +140,6 @@ void ShadowPackets::trace_places(int face, std::size_t first, std::size_t last,
     packet_.own[i] = static_cast<std::int32_t>(queries_[place.query].own);
     query_[i] = place.query;
   }
-  packet_.primitive.fill(-1);
   const int axis = face / 2;
   packet_.W = packet_.U = packet_.V = glm::dvec3(0);
   packet_.W[axis] = face % 2 == 0 ? 1 : -1;
@@ -151,7 +150,8 @@ void ShadowPackets::trace_places(int face, std::size_t first, std::size_t last,
   // Places are rounded in double, at most 1, and in float.
   packet_.place_error =
       0x1p-50 + 0x1p-23 * std::max(extent.high_u - extent.low_u, extent.high_v - extent.low_v);
-  finish(packet_);
+  finish_places(packet_);
+  start(packet_);
   packet_.budget = kPacketWork + kRayWork * packet_.size;
   trace_packet(isa_, prepared_, packet_, counts);
   const bool all = packet_.budget >= 0;

@@ -33,6 +33,20 @@ template <class F>
   return lane_max<F>(a, -a);
 }
 
+// The whole number not below (above) each lane.
+template <class F>
+F lane_ceil(const F& a) {
+  using std::ceil;
+  using stdx::ceil;
+  return ceil(a);
+}
+template <class F>
+F lane_floor(const F& a) {
+  using std::floor;
+  using stdx::floor;
+  return floor(a);
+}
+
 // Of a mask of F's lanes: whether any holds, and how many do.
 template <class F>
 [[gnu::always_inline]] inline bool any(const Mask<F>& mask) {
