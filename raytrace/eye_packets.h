@@ -27,17 +27,19 @@ class EyePackets {
 
  private:
   struct Sample {
-    int X = 0, Y = 0;
-    std::size_t index = 0;
+    std::uint8_t column = 0, row = 0;
   };
 
-  void load(int X0, int Y0, int X1, int Y1, std::size_t first, std::size_t stride);
+  void load(int X0, int Y0, int columns, int rows);
+  void place(int columns, int rows);
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
 
   const Prepared& prepared_;
   const Camera& camera_;
   Isa isa_;
   RayPacket packet_;
+  // Of the packet: its first sample, its size, and its rays' samples from the first on.
+  int X0_ = 0, Y0_ = 0, columns_ = 0, rows_ = 0;
   RayPacket::PerRay<Sample> sample_;
 };
 
