@@ -13,6 +13,15 @@ double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v
 
 constexpr int kEdge = 16, kBlock = 4;  // of a packet and of its groups, in samples
 
+// visit(column, row) of a packet's samples, block by block, so that a group's rays are close to each other.
+template <class Visit>
+void for_each_sample(int columns, int rows, const Visit& visit) {
+  for (int y = 0; y < rows; y += kBlock)
+    for (int x = 0; x < columns; x += kBlock)
+      for (int row = y; row < std::min(y + kBlock, rows); ++row)
+        for (int column = x; column < std::min(x + kBlock, columns); ++column) visit(column, row);
+}
+
 }  // namespace
 
 double reach_of(const Prepared& prepared, const glm::dvec3& origin) {
@@ -33,6 +42,7 @@ EyePackets::EyePackets(const Prepared& prepared, const Camera& camera, Isa isa)
   // place.h: what is near lies within 10 (step + 32 u reach) of the place, up to 16 reach away: below 2^-40 reach.
   packet_.near_error = 0x1p-39;
   packet_.lattice = true;
+  packet_.extent_u = packet_.extent_v = kEdge / 2;
   packet_.ask = ask;
   packet_.context = this;
 }
@@ -56,37 +66,55 @@ void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& 
     }
 }
 
+std::vector<std::uint32_t> EyePackets::order(int columns, int rows) {
+  std::vector<std::uint32_t> order;
+  for (int y = 0; y < rows; y += kEdge)
+    for (int x = 0; x < columns; x += kEdge)
+      for_each_sample(std::min(kEdge, columns - x), std::min(kEdge, rows - y), [&](int column, int row) {
+        order.push_back(static_cast<std::uint32_t>((y + row) * columns + x + column));
+      });
+  return order;
+}
+
 void EyePackets::load(int X0, int Y0, int columns, int rows) {
   X0_ = X0;
   Y0_ = Y0;
   if (columns != columns_ || rows != rows_) place(columns, rows);
   packet_.W = camera_.direction(X0 + kEdge / 2, Y0 + kEdge / 2);
   packet_.w.fill(0);
+  packet_.least_w.fill(0);
   start(packet_);
 }
 
-// Block by block, so that a group's rays are close to each other. All packets of a size are alike.
+// All packets of a size are alike.
 void EyePackets::place(int columns, int rows) {
   columns_ = columns;
   rows_ = rows;
   std::size_t i = 0;
-  for (int y = 0; y < rows; y += kBlock)
-    for (int x = 0; x < columns; x += kBlock)
-      for (int row = y; row < std::min(y + kBlock, rows); ++row)
-        for (int column = x; column < std::min(x + kBlock, columns); ++column, ++i) {
-          packet_.u[i] = static_cast<float>(column - kEdge / 2);
-          packet_.v[i] = static_cast<float>(row - kEdge / 2);
-          sample_[i] = {static_cast<std::uint8_t>(column), static_cast<std::uint8_t>(row)};
-        }
+  for_each_sample(columns, rows, [&](int column, int row) {
+    packet_.u[i] = static_cast<float>(column - kEdge / 2);
+    packet_.v[i] = static_cast<float>(row - kEdge / 2);
+    sample_[i++] = {static_cast<std::uint8_t>(column), static_cast<std::uint8_t>(row)};
+  });
   packet_.size = static_cast<int>(i);
-  finish_places(packet_);
+  const auto bound = [&](const float* place, std::size_t first, auto& of) {
+    const std::size_t last = std::min(first + RayPacket::kGroup, i);
+    const auto [low, high] = std::minmax_element(place + first, place + last);
+    of[0][first / RayPacket::kGroup] = *low;
+    of[1][first / RayPacket::kGroup] = *high;
+  };
+  for (std::size_t first = 0; first < i; first += RayPacket::kGroup) {
+    bound(packet_.u.data(), first, packet_.group_u);
+    bound(packet_.v.data(), first, packet_.group_v);
+  }
 }
 
 // As nearest(): before what is kept, by depth and number.
 void EyePackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) {
   const EyePackets& self = *static_cast<const EyePackets*>(packet.context);
   const Scene& scene = self.prepared_.scene;
-  const Ray exact{packet.origin, self.camera_.direction(self.X0_ + self.sample_[ray].column, self.Y0_ + self.sample_[ray].row)};
+  const Ray exact{packet.origin, self.camera_.direction(self.X0_ + self.sample_[ray].column,
+                                                        self.Y0_ + self.sample_[ray].row)};
   const Hit hit = intersect(scene, primitive, exact, kRayStart, counts);
   if (!hit.found()) return;
   if (packet.primitive[ray] >= 0 &&

@@ -22,6 +22,8 @@ class EyePackets {
   // that is within 16 reach().
   void trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& hits, std::vector<std::uint8_t>& alone,
              SignCounts& counts);
+  // The numbers of that many samples in the order of the packets' rays: neighbours stay together.
+  static std::vector<std::uint32_t> order(int columns, int rows);
   double reach() const { return packet_.reach; }
   double ray_length() const { return packet_.length; }  // at least |d| of any ray
 

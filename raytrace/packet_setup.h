@@ -52,8 +52,8 @@ inline PacketAxes packet_axes(const RayPacket& p) {
 struct LeafSetup {
   using Row = std::array<float, 8>;
   alignas(64) std::array<Row, 3> x, y, c;  // E_k = x u + y v + c up to a positive factor, of values up to 1
-  alignas(64) Row doubt;                   // an |E_k| not above it may have either sign; 2 where the side is not sure
-  alignas(64) Row wx, wy, wc, w_error;     // 1/t; w_error is infinite where the side is not sure
+  alignas(64) Row doubt;  // an |E_k| not above it may have either sign; 2 where the side is not sure
+  alignas(64) Row wx, wy, wc, w_error;           // 1/t; w_error is infinite where the side is not sure
   alignas(64) Row low_u, high_u, low_v, high_v;  // what the triangle is within; of eye rays, whole numbers
   std::uint32_t alive = 0;                       // triangles whose rectangle holds anything, as bits
 };
@@ -142,9 +142,8 @@ void set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* 
                                  D(1)};
   const D h = fused_dot(q0, n), size_h = lane_abs<D>(h);
   const D size_n = most_of(n, sizes), off = D(axes.per_det) * (l * m);
-  const Mask<D> sure =
-      size_h > mul_add(D(0x1p-27), l, D(0x1p-25 * (axes.kappa * axes.kappa)) * m) * off &&
-      size_h > lane_max<D>(D(0x1p-17) * l, D(0x1p-20 * p.reach)) * size_n;
+  const Mask<D> sure = size_h > mul_add(D(0x1p-27), l, D(0x1p-25 * (axes.kappa * axes.kappa)) * m) * off &&
+                       size_h > lane_max<D>(D(0x1p-17) * l, D(0x1p-20 * p.reach)) * size_n;
   const D per_h = select<D>(sure, D(1) / select<D>(sure, h, D(1)), D(0));
   const Vec3<D> w = per_h * n;
   const D most_w = most_of(w, extents);
@@ -154,7 +153,8 @@ void set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* 
   store(to_float<D>(w.x), &out.wx[lane]);
   store(to_float<D>(w.y), &out.wy[lane]);
   store(to_float<D>(w.z), &out.wc[lane]);
-  store(to_float<D>(select<D>(sure, w_error, D(std::numeric_limits<double>::infinity()))), &out.w_error[lane]);
+  store(to_float<D>(select<D>(sure, w_error, D(std::numeric_limits<double>::infinity()))),
+        &out.w_error[lane]);
 
   // Edges, turned by the side.
   const D turn = select<D>(h < D(0), D(-1), D(1));

@@ -56,8 +56,8 @@ std::uint32_t groups_met(const RayPacket& p, const SphereSetup& s) {
     const auto greatest = [&](double x, const std::array<RayPacket::PerGroup<float>, 2>& of) {
       return F(static_cast<float>(x)) * load<F>(&of[x >= 0 ? 1 : 0][g]);
     };
-    const F b = (greatest(s.b_u, p.group_u) + greatest(s.b_v, p.group_v)) +
-                F(static_cast<float>(s.b_w) + error);
+    const F b =
+        (greatest(s.b_u, p.group_u) + greatest(s.b_v, p.group_v)) + F(static_cast<float>(s.b_w) + error);
     const F square = b * b * F(1 + 0x1p-20f), discriminant = square - load<F>(&p.least_square[g]) * F(less_q);
     const F w = (b + square_root(lane_max<F>(discriminant, F(0)))) * F((1 + 0x1p-12f) / less_q);
     bits |= mask_bits<F>(b >= F(0) && discriminant >= F(0) && w >= load<F>(&p.least_w[g])) << g;
@@ -94,8 +94,8 @@ bool test_spheres(RayPacket& p, const SphereSetup& s, std::size_t ray, std::uint
 }
 
 template <class F, class D>
-void test_leaf(const Prepared& prepared, const PacketAxes&, const SphereLeaves& leaves, std::uint32_t first, std::uint32_t count,
-               RayPacket& p, SignCounts& counts) {
+void test_leaf(const Prepared& prepared, const PacketAxes&, const SphereLeaves& leaves, std::uint32_t first,
+               std::uint32_t count, RayPacket& p, SignCounts& counts) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t primitive = leaves.bvh.items[first + i];
     if (casts_none<F>(prepared, p, primitive)) continue;

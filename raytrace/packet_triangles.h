@@ -7,6 +7,9 @@
 
 namespace sidelight::raytrace {
 
+// Of an interval, the end at which x times it is greatest: 0 the lower, 1 the upper one. (The sign bit: no branch.)
+inline std::size_t greatest_end(float x) { return 1 - (std::bit_cast<std::uint32_t>(x) >> 31); }
+
 // Groups in which some ray may meet triangle i of the set-up before what it keeps, as bits.
 template <class F>
 std::uint32_t groups_met(const RayPacket& p, const LeafSetup& s, std::size_t i) {
@@ -17,8 +20,8 @@ std::uint32_t groups_met(const RayPacket& p, const LeafSetup& s, std::size_t i) 
     Mask<F> met = F(s.low_u[i]) <= most(p.group_u) && F(s.high_u[i]) >= least(p.group_u) &&
                   F(s.low_v[i]) <= most(p.group_v) && F(s.high_v[i]) >= least(p.group_v);
     const auto greatest = [&](float x, float y, float c) {
-      return mul_add(F(x), load<F>(&p.group_u[x >= 0 ? 1 : 0][g]),
-                     mul_add(F(y), load<F>(&p.group_v[y >= 0 ? 1 : 0][g]), F(c)));
+      return mul_add(F(x), load<F>(&p.group_u[greatest_end(x)][g]),
+                     mul_add(F(y), load<F>(&p.group_v[greatest_end(y)][g]), F(c)));
     };
     const F e0 = greatest(s.x[0][i], s.y[0][i], s.c[0][i]), e1 = greatest(s.x[1][i], s.y[1][i], s.c[1][i]),
             e2 = greatest(s.x[2][i], s.y[2][i], s.c[2][i]);
@@ -46,8 +49,9 @@ template <class F>
 void test_set_up(const Prepared& prepared, RayPacket& p, const LeafSetup& s, const std::uint32_t* primitives,
                  SignCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
-  std::array<std::uint16_t, 8 * RayPacket::kGroups> near;            // i << 8 | the group's first ray
-  std::array<std::uint16_t, 8 * RayPacket::kCapacity / kLanes<F>> met;  // the same, of as many rays as F has lanes
+  std::array<std::uint16_t, 8 * RayPacket::kGroups> near;  // i << 8 | the group's first ray
+  std::array<std::uint16_t, 8 * RayPacket::kCapacity / kLanes<F>>
+      met;  // the same, of as many rays as F has lanes
   std::size_t near_size = 0, met_size = 0;
   for (std::uint32_t alive = s.alive; alive != 0; alive &= alive - 1) {
     const auto i = static_cast<std::uint32_t>(std::countr_zero(alive));
@@ -65,8 +69,8 @@ void test_set_up(const Prepared& prepared, RayPacket& p, const LeafSetup& s, con
   for (std::size_t k = 0; k < met_size; ++k) {
     const std::size_t i = met[k] >> 8, first = met[k] & 255;
     const F e = least_edge<F>(p, s, i, first), doubt(s.doubt[i]);
-    const F w = mul_add(F(s.wx[i]), load<F>(&p.u[first]),
-                        mul_add(F(s.wy[i]), load<F>(&p.v[first]), F(s.wc[i])));
+    const F w =
+        mul_add(F(s.wx[i]), load<F>(&p.u[first]), mul_add(F(s.wy[i]), load<F>(&p.v[first]), F(s.wc[i])));
     if (keep_nearer<F>(p, first, primitives[i], e > doubt, e >= -doubt, w, F(s.w_error[i]), counts))
       changed |= 1u << first / kGroup;
   }

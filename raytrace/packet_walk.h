@@ -87,8 +87,13 @@ void prefetch(const Tree& leaves, std::uint32_t first, std::uint32_t count) {
   for (std::size_t at = 0; at < size; at += kLine) __builtin_prefetch(from + at);
 }
 
+// A leaf in steps of RayPacket::budget, a node being one.
+template <class Tree>
+constexpr int kLeafWork = std::is_same_v<Tree, SphereLeaves> ? 16 : 4;
+
 template <class F, class B, class D, class Tree>
-void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& leaves, RayPacket& p, SignCounts& counts) {
+void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& leaves, RayPacket& p,
+                 SignCounts& counts) {
   const Bvh& bvh = leaves.bvh;
   if (bvh.nodes.empty() || p.groups == 0) return;
   const PacketPlanes planes = packet_planes<B>(p, bvh);
@@ -104,7 +109,7 @@ void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& l
     // Surely behind all that is kept; all rays of an infinite w are done.
     if (p.least == std::numeric_limits<float>::infinity()) return;
     if (top.depth * p.least > 1 + 0x1p-12f) continue;
-    p.budget -= top.count > 0 ? 8 : 1;
+    p.budget -= top.count > 0 ? kLeafWork<Tree> : 1;
     if (p.budget < 0) return;
     if (top.count > 0) {
       test_leaf<F, D>(prepared, axes, leaves, top.first, top.count, p, counts);

@@ -38,17 +38,19 @@ struct RayPacket {
   alignas(64) PerRay<std::int32_t> own;  // of shadow rays: the flat surface that asks, or -1
   bool any_hit = false;                  // shadow rays: the first one will do
   bool all_cast = true;                  // whether every material casts shadows
-  // Work left, at the cost of a node as 1 and a leaf as 8: where it falls below 0 the packet is left as it is by then.
+  // Work left, in nodes (packet_walk.h): where it falls below 0 the packet is left as it is by then.
   int budget = std::numeric_limits<int>::max();
   // Whether anything at all was doubtful. If not, nothing but what is kept comes near to where the ray ends.
   PerRay<bool> asked{};
 
-  // Derived by finish().
-  int groups = 0;
+  // What bounds the rays: the greatest |u| and |v|, the least and the greatest of each group, and its least w.
   float extent_u = 0, extent_v = 0;
-  alignas(64) std::array<PerGroup<float>, 2> group_u, group_v;  // the least and the greatest of its rays
-  alignas(64) PerGroup<float> least_w;                          // likewise
-  float least = 0;
+  alignas(64) std::array<PerGroup<float>, 2> group_u, group_v;
+  alignas(64) PerGroup<float> least_w;
+
+  // Derived.
+  int groups = 0;
+  float least = 0;  // w of all rays
   // Where there are spheres: d . d, and the least of each group.
   alignas(64) PerRay<double> square;
   alignas(64) PerGroup<float> least_square;
@@ -58,9 +60,8 @@ struct RayPacket {
   void* context = nullptr;
 };
 
-// Fills what is derived of u and v; entries beyond `size`, up to whole groups, repeat the last ray.
-void finish_places(RayPacket& packet);
-// Then what is derived of w; nothing is kept yet, and entries beyond `size` ask for nothing.
+// To be called once the rays and what bounds them are given: nothing is kept yet, and entries beyond `size`, up to whole
+// groups, become rays that ask for nothing.
 void start(RayPacket& packet);
 
 // Meets everything in the scene that casts shadows (any_hit), or simply everything, as far as the budget goes.

@@ -6,6 +6,7 @@
 // (shadow rays traced from the light); here sorted, and cut where they lie too far apart.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,17 +29,28 @@ class ShadowPackets {
              SignCounts& counts);
 
  private:
-  // A query on a face of the cube: P = light + depth (axis + u U + v V).
+  // A query on a face of the cube: P = light + (axis + u U + v V) / per_depth.
   struct Place {
-    double u = 0, v = 0, depth = 0;
-    std::uint32_t query = 0;
-    std::uint32_t key = 0;  // Morton code of its place among those of the face
+    double u = 0, v = 0, per_depth = 0;
+    std::uint32_t query = 0, own = kNone;
+  };
+  // What the rays of a group, or of more, have in common.
+  struct Extent {
+    double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
+    double least_per_depth = low_u;
+
+    void grow(const Place& place);
+    void grow(const Extent& other);
+    double area() const { return (high_u - low_u) * (high_v - low_v); }
   };
 
-  void sort_face();
+  Place place_of(int face, const glm::dvec3& p, std::size_t query) const;
+  bool trace_on_one_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts);
+  double find_groups();
   void trace_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts);
-  void trace_places(int face, std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark,
-                    SignCounts& counts);
+  void sort_places();
+  void trace_groups(std::size_t first, std::size_t last, const Extent& extent,
+                    std::vector<std::uint8_t>& dark, SignCounts& counts);
   bool is_dark(std::uint32_t query, SignCounts& counts) const;
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
 
@@ -47,8 +59,11 @@ class ShadowPackets {
   RayPacket packet_;
   const Light* light_ = nullptr;
   std::span<const ShadowQuery> queries_;
-  std::array<std::vector<Place>, 6> faces_;
-  std::vector<Place> sorted_, other_;
+  // Of one face, in the order of the queries and sorted.
+  std::vector<Place> places_, sorted_;
+  std::vector<std::uint32_t> keys_;
+  std::vector<Extent> groups_;
+  Extent whole_;                            // of all groups
   RayPacket::PerRay<std::uint32_t> query_;  // of the packet's rays
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light of a level's hits: shadow rays light by light, and the sums.
+#include <algorithm>
+
 #include "raytrace/wave.h"
 
 namespace sidelight::raytrace {
@@ -33,18 +35,22 @@ ShadowQuery Wave::shadow_query(const Level& level, const HitBatch& batch, std::s
 // Where a shadow ray is blocked, the light's state becomes that of a surface in its own light: b_i = 0.
 void Wave::find_shadows(const Level& level, std::size_t light, RenderStats& stats) {
   const Light& source = scene_.lights[light];
-  // What is asked, batch by batch; then the answers in the same order.
-  const auto for_each_asked = [&](const auto& visit) {
-    for (std::size_t b = 0; b < used_; ++b)
-      for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
-        if (batches_[b].lit.light[light].state[i] == LightTerms::kAsk) visit(batches_[b], i);
-  };
-  queries_.clear();
-  for (std::size_t b = 0; b < used_; ++b)
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
-      stats.self_shadowed += batches_[b].lit.light[light].state[i] == LightTerms::kSelfShadowed;
-  for_each_asked(
-      [&](const HitBatch& batch, std::size_t i) { queries_.push_back(shadow_query(level, batch, i)); });
+  // Which hits ask, by batch and entry; then what they ask, and the answers, in the same order.
+  asking_.resize(used_ * ShadingBatch::kCapacity);
+  std::size_t asking = 0;
+  for (std::size_t b = 0; b < used_; ++b) {
+    const ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
+    const auto size = static_cast<std::size_t>(batches_[b].size);
+    for (std::size_t i = 0; i < size; ++i) {
+      asking_[asking] = {static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(i)};
+      asking += state[i] == LightTerms::kAsk;
+    }
+    stats.self_shadowed += static_cast<std::uint64_t>(
+        std::count(state.begin(), state.begin() + batches_[b].size, LightTerms::kSelfShadowed));
+  }
+  queries_.resize(asking);
+  for (std::size_t k = 0; k < asking; ++k)
+    queries_[k] = shadow_query(level, batches_[asking_[k].batch], asking_[k].entry);
   stats.rays.shadow += queries_.size();
   if (source.directional) {
     dark_.clear();
@@ -55,10 +61,9 @@ void Wave::find_shadows(const Level& level, std::size_t light, RenderStats& stat
   } else {
     shadow_packets_.trace(source, queries_, dark_, stats.signs);
   }
-  std::size_t next = 0;
-  for_each_asked([&](HitBatch& batch, std::size_t i) {
-    if (dark_[next++] != 0) batch.lit.light[light].state[i] = LightTerms::kSelfShadowed;
-  });
+  for (std::size_t k = 0; k < asking; ++k)
+    if (dark_[k] != 0)
+      batches_[asking_[k].batch].lit.light[light].state[asking_[k].entry] = LightTerms::kSelfShadowed;
 }
 
 void Wave::add_light(std::size_t light) {

@@ -85,11 +85,10 @@ Mask<Ints<F>> integer_mask(const Mask<F>& mask) {
 // The least of all lanes.
 template <class F>
 Scalar<F> least(const F& a) {
-  alignas(64) Scalar<F> lanes[kLanes<F>];
-  store(a, lanes);
-  Scalar<F> result = lanes[0];
-  for (int lane = 1; lane < kLanes<F>; ++lane) result = lane_min(result, lanes[lane]);
-  return result;
+  if constexpr (kLanes<F> == 1)
+    return a;
+  else
+    return stdx::hmin(a);
 }
 
 // of(lane) in each lane.
