@@ -34,8 +34,8 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
   s.wy[0] = static_cast<float>(y);
   s.wc[0] = static_cast<float>(c);
   s.w_error[0] = sure ? static_cast<float>(error) : kInfinity;
-  s.low_u[0] = s.low_v[0] = -kInfinity;
-  s.high_u[0] = s.high_v[0] = kInfinity;
+  s.low_u[0] = s.low_v[0] = -kFar;
+  s.high_u[0] = s.high_v[0] = kFar;
   s.alive = 1;
   test_set_up<F>(prepared, p, s, &primitive, counts);
 }

@@ -49,6 +49,8 @@ inline PacketAxes packet_axes(const RayPacket& p) {
   return axes;
 }
 
+constexpr float kFar = 1e30f;  // farther than any u and v
+
 struct LeafSetup {
   using Row = std::array<float, 8>;
   alignas(64) std::array<Row, 3> x, y, c;  // E_k = x u + y v + c up to a positive factor, of values up to 1
@@ -79,7 +81,6 @@ D most_of(const Vec3<D>& f, const std::array<D, 3>& size) {
 template <class D>
 Mask<D> set_up_rectangle(const RayPacket& p, const PacketAxes& axes, const std::array<Vec3<D>, 3>& q,
                          const D& l, std::size_t lane, LeafSetup& out) {
-  constexpr double kFar = 1e30;  // as good as infinite, and a float
   const D low_s = lane_min<D>(lane_min<D>(q[0].z, q[1].z), q[2].z),
           high_s = lane_max<D>(lane_max<D>(q[0].z, q[1].z), q[2].z);
   const D clear = mul_add(D(axes.ahead_l), l, D(axes.ahead_0));
@@ -100,8 +101,8 @@ Mask<D> set_up_rectangle(const RayPacket& p, const PacketAxes& axes, const std::
       from = lane_ceil(from);
       to = lane_floor(to);
     }
-    from = select<D>(ahead, lane_max<D>(from, D(-kFar)), D(-kFar));
-    to = select<D>(ahead, lane_min<D>(to, D(kFar)), D(kFar));
+    from = select<D>(ahead, lane_max<D>(from, D(static_cast<double>(-kFar))), D(static_cast<double>(-kFar)));
+    to = select<D>(ahead, lane_min<D>(to, D(static_cast<double>(kFar))), D(static_cast<double>(kFar)));
     const D most(static_cast<double>(extent));
     alive = alive && from <= to && from <= most && to >= -most;
     store(to_float<D>(from), &low_row[lane]);

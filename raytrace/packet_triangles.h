@@ -10,15 +10,18 @@ namespace sidelight::raytrace {
 // Of an interval, the end at which x times it is greatest: 0 the lower, 1 the upper one. (The sign bit: no branch.)
 inline std::size_t greatest_end(float x) { return 1 - (std::bit_cast<std::uint32_t>(x) >> 31); }
 
-// Groups in which some ray may meet triangle i of the set-up before what it keeps, as bits.
+// A triangle of a set-up, and rays from this one on: i << 8 | ray.
+using Pairs = std::array<std::int32_t, 8 * RayPacket::kCapacity + RayPacket::kGroups>;
+
+// Adds triangle i of the set-up with the groups in which some ray may meet it before what it keeps.
 template <class F>
-std::uint32_t groups_met(const RayPacket& p, const LeafSetup& s, std::size_t i) {
-  std::uint32_t bits = 0;
+std::size_t add_groups_met(const RayPacket& p, const LeafSetup& s, std::size_t i, Pairs& pairs,
+                           std::size_t size) {
+  using I = Ints<F>;
+  const I rays = generate<I>([](int lane) { return RayPacket::kGroup * lane; });
   for (std::size_t g = 0; g < static_cast<std::size_t>(p.groups); g += kLanes<F>) {
     const auto least = [&](const auto& of) { return load<F>(&of[0][g]); };
     const auto most = [&](const auto& of) { return load<F>(&of[1][g]); };
-    Mask<F> met = F(s.low_u[i]) <= most(p.group_u) && F(s.high_u[i]) >= least(p.group_u) &&
-                  F(s.low_v[i]) <= most(p.group_v) && F(s.high_v[i]) >= least(p.group_v);
     const auto greatest = [&](float x, float y, float c) {
       return mul_add(F(x), load<F>(&p.group_u[greatest_end(x)][g]),
                      mul_add(F(y), load<F>(&p.group_v[greatest_end(y)][g]), F(c)));
@@ -26,11 +29,14 @@ std::uint32_t groups_met(const RayPacket& p, const LeafSetup& s, std::size_t i) 
     const F e0 = greatest(s.x[0][i], s.y[0][i], s.c[0][i]), e1 = greatest(s.x[1][i], s.y[1][i], s.c[1][i]),
             e2 = greatest(s.x[2][i], s.y[2][i], s.c[2][i]);
     const F w = greatest(s.wx[i], s.wy[i], s.wc[i]) + F(s.w_error[i]);
-    met = met && lane_min<F>(lane_min<F>(e0, e1), e2) >= F(-s.doubt[i]) &&
-          w * F(kSurely) >= lane_max<F>(load<F>(&p.least_w[g]), F(0));
-    bits |= mask_bits<F>(met) << g;
+    const Mask<F> met = F(s.low_u[i]) <= most(p.group_u) && F(s.high_u[i]) >= least(p.group_u) &&
+                        F(s.low_v[i]) <= most(p.group_v) && F(s.high_v[i]) >= least(p.group_v) &&
+                        lane_min<F>(lane_min<F>(e0, e1), e2) >= F(-s.doubt[i]) &&
+                        w * F(kSurely) >= lane_max<F>(load<F>(&p.least_w[g]), F(0));
+    size +=
+        store_some<F>(met, rays + I(static_cast<std::int32_t>(i << 8 | g * RayPacket::kGroup)), &pairs[size]);
   }
-  return bits & ((1u << p.groups) - 1);
+  return size;
 }
 
 // The edge function that is least, at each of these rays.
@@ -49,25 +55,21 @@ template <class F>
 void test_set_up(const Prepared& prepared, RayPacket& p, const LeafSetup& s, const std::uint32_t* primitives,
                  SignCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
-  std::array<std::uint16_t, 8 * RayPacket::kGroups> near;  // i << 8 | the group's first ray
-  std::array<std::uint16_t, 8 * RayPacket::kCapacity / kLanes<F>>
-      met;  // the same, of as many rays as F has lanes
+  Pairs near, met;
   std::size_t near_size = 0, met_size = 0;
   for (std::uint32_t alive = s.alive; alive != 0; alive &= alive - 1) {
-    const auto i = static_cast<std::uint32_t>(std::countr_zero(alive));
-    if (casts_none<F>(prepared, p, primitives[i])) continue;
-    for (std::uint32_t bits = groups_met<F>(p, s, i); bits != 0; bits &= bits - 1)
-      near[near_size++] = static_cast<std::uint16_t>(i << 8 | std::countr_zero(bits) * RayPacket::kGroup);
+    const auto i = static_cast<std::size_t>(std::countr_zero(alive));
+    if (!casts_none<F>(prepared, p, primitives[i])) near_size = add_groups_met<F>(p, s, i, near, near_size);
   }
   for (std::size_t k = 0; k < near_size; ++k)
-    for (std::size_t first = near[k]; first < near[k] + kGroup; first += kLanes<F>) {
-      const std::size_t i = first >> 8;
-      met[met_size] = static_cast<std::uint16_t>(first);
-      met_size += any<F>(least_edge<F>(p, s, i, first & 255) >= F(-s.doubt[i]));
+    for (std::int32_t pair = near[k]; pair < near[k] + RayPacket::kGroup; pair += kLanes<F>) {
+      const auto i = static_cast<std::size_t>(pair >> 8), first = static_cast<std::size_t>(pair & 255);
+      met[met_size] = pair;
+      met_size += any<F>(least_edge<F>(p, s, i, first) >= F(-s.doubt[i]));
     }
   std::uint32_t changed = 0;
   for (std::size_t k = 0; k < met_size; ++k) {
-    const std::size_t i = met[k] >> 8, first = met[k] & 255;
+    const auto i = static_cast<std::size_t>(met[k] >> 8), first = static_cast<std::size_t>(met[k] & 255);
     const F e = least_edge<F>(p, s, i, first), doubt(s.doubt[i]);
     const F w =
         mul_add(F(s.wx[i]), load<F>(&p.u[first]), mul_add(F(s.wy[i]), load<F>(&p.v[first]), F(s.wc[i])));

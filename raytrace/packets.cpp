@@ -15,6 +15,10 @@ void start(RayPacket& p) {
     p.w[i] = std::numeric_limits<float>::infinity();
     p.own[i] = -1;
   }
+  for (std::size_t g = groups; g < p.least_w.size(); ++g) {
+    p.group_u[0][g] = p.group_v[0][g] = std::numeric_limits<float>::infinity();
+    p.group_u[1][g] = p.group_v[1][g] = -std::numeric_limits<float>::infinity();
+  }
   p.least = *std::min_element(p.least_w.begin(), p.least_w.begin() + p.groups);
   p.primitive.fill(-1);
   p.asked.fill(false);

@@ -73,6 +73,26 @@ template <class F>
     return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
 }
 
+// Writes the integers where the mask of F's lanes holds, one after the other, and returns how many; what follows them, up
+// to kLanes<F> in all, may be overwritten.
+template <class F>
+[[gnu::always_inline]] inline std::size_t store_some(const Mask<F>& mask, const Ints<F>& values,
+                                                     std::int32_t* to) {
+  std::uint32_t bits = mask_bits<F>(mask);
+  const auto count = static_cast<std::size_t>(std::popcount(bits));
+#ifdef __AVX512F__
+  if constexpr (sizeof(F) == 64) {
+    _mm512_storeu_si512(
+        to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), std::bit_cast<__m512i>(values)));
+    return count;
+  }
+#endif
+  alignas(64) std::int32_t lanes[kLanes<F>];
+  store(values, lanes);
+  for (; bits != 0; bits &= bits - 1) *to++ = lanes[std::countr_zero(bits)];
+  return count;
+}
+
 // A mask of F's lanes as one of the integers beside them.
 template <class F>
 Mask<Ints<F>> integer_mask(const Mask<F>& mask) {
