@@ -31,6 +31,7 @@ std::uint32_t spread(std::uint32_t x) {
 }
 
 // Of the cube around the light: +x, -x, +y, ...
+double depth_on_cube(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 int face_of(const glm::dvec3& p) {
   const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
   const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
@@ -65,48 +66,55 @@ ShadowPackets::ShadowPackets(const Prepared& prepared, Isa isa) : prepared_(prep
 }
 
 void ShadowPackets::trace(const Light& light, std::span<const ShadowQuery> queries,
-                          std::vector<std::uint8_t>& dark, SignCounts& counts) {
+                          std::span<const std::uint32_t> asking, std::vector<std::uint8_t>& dark,
+                          SignCounts& counts) {
   light_ = &light;
   queries_ = queries;
-  dark.assign(queries.size(), 0);
+  asking_ = asking;
+  dark.assign(asking.size(), 0);
   packet_.origin = light.position;
   packet_.reach = reach_of(prepared_, light.position);
-  if (queries.empty() || trace_on_one_face(face_of(queries[0].from - light.position), dark, counts)) return;
+  if (asking.empty()) return;
+  // Most often one face will do, though some of the places lie beyond its edges.
+  const int first = face_of(query(0).from - light.position);
+  if (find_places(first, true)) return trace_face(first, dark, counts);
   for (int face = 0; face < 6; ++face) {
-    places_.clear();
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      const glm::dvec3 p = queries[i].from - light.position;
-      if (face_of(p) != face) continue;
-      if (std::abs(p[face / 2]) < kLeastDepth)
-        dark[i] = is_dark(static_cast<std::uint32_t>(i), counts);
-      else
-        places_.push_back(place_of(face, p, i));
-    }
+    find_places(face, false);
     trace_face(face, dark, counts);
   }
+  for (std::size_t i = 0; i < asking.size(); ++i)
+    if (depth_on_cube(query(i).from - light.position) < kLeastDepth) dark[i] = is_dark(i, counts);
 }
 
-ShadowPackets::Place ShadowPackets::place_of(int face, const glm::dvec3& p, std::size_t query) const {
-  const int axis = face / 2;
-  const double per_depth = 1 / std::abs(p[axis]);
-  return {per_depth * p[(axis + 1) % 3], per_depth * p[(axis + 2) % 3], per_depth,
-          static_cast<std::uint32_t>(query), queries_[query].own};
-}
-
-// If all queries can be seen through this face, though some lie beyond its edges. Most often a tile's can.
-bool ShadowPackets::trace_on_one_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts) {
-  const int axis = face / 2;
-  const double sign = face % 2 == 0 ? 1 : -1;
-  places_.resize(queries_.size());
-  bool all = true;
-  for (std::size_t i = 0; i < queries_.size(); ++i) {
-    const glm::dvec3 p = queries_[i].from - light_->position;
-    places_[i] = place_of(face, p, i);
-    all &=
-        sign * p[axis] >= kLeastDepth && std::abs(places_[i].u) <= kWide && std::abs(places_[i].v) <= kWide;
+// Of all queries, false if some cannot be seen through this face; or of those whose face it is.
+bool ShadowPackets::find_places(int face, bool all) {
+  switch (face / 2) {
+    case 0:
+      return find_places_along<0>(face, all);
+    case 1:
+      return find_places_along<1>(face, all);
+    default:
+      return find_places_along<2>(face, all);
   }
-  if (all) trace_face(face, dark, counts);
-  return all;
+}
+
+template <int kAxis>
+bool ShadowPackets::find_places_along(int face, bool all) {
+  const double sign = face % 2 == 0 ? 1 : -1;
+  places_.resize(asking_.size());
+  std::size_t size = 0;
+  bool fit = true;
+  for (std::size_t i = 0; i < asking_.size(); ++i) {
+    const ShadowQuery& asked = query(i);
+    const glm::dvec3 p = asked.from - light_->position;
+    const double depth = sign * p[kAxis], per_depth = 1 / depth;
+    const double u = per_depth * p[(kAxis + 1) % 3], v = per_depth * p[(kAxis + 2) % 3];
+    places_[size] = {u, v, per_depth, static_cast<std::uint32_t>(i), asked.own};
+    fit &= depth >= kLeastDepth && std::abs(u) <= kWide && std::abs(v) <= kWide;
+    size += all || (face_of(p) == face && depth >= kLeastDepth);
+  }
+  places_.resize(size);
+  return fit;
 }
 
 // The groups of the places as they stand, and their area.
@@ -195,7 +203,7 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, const Exte
     packet_.v[i] = static_cast<float>(places[i].v - middle_v);
     packet_.w[i] = static_cast<float>(places[i].per_depth);
     packet_.own[i] = static_cast<std::int32_t>(places[i].own);
-    query_[i] = places[i].query;
+    number_[i] = places[i].number;
   }
   packet_.W += middle_u * packet_.U + middle_v * packet_.V;
   packet_.distance = packet_.length / extent.least_per_depth;
@@ -217,12 +225,12 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, const Exte
   trace_packet(isa_, prepared_, packet_, counts);
   const bool all = packet_.budget >= 0;
   for (std::size_t i = 0; i < places.size(); ++i)
-    dark[query_[i]] = packet_.primitive[i] >= 0 || (!all && is_dark(query_[i], counts));
+    dark[number_[i]] = packet_.primitive[i] >= 0 || (!all && is_dark(number_[i], counts));
 }
 
 // Alone.
-bool ShadowPackets::is_dark(std::uint32_t query, SignCounts& counts) const {
-  return blocker(prepared_, ray_to_light(queries_[query].from, *light_), &light_->position, counts, kRayStart,
+bool ShadowPackets::is_dark(std::size_t number, SignCounts& counts) const {
+  return blocker(prepared_, ray_to_light(query(number).from, *light_), &light_->position, counts, kRayStart,
                  Precision::exact, isa_)
       .found();
 }
@@ -231,7 +239,7 @@ void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primit
   const ShadowPackets& self = *static_cast<const ShadowPackets*>(packet.context);
   // As blocker() does; what casts no shadow is not asked about.
   const Scene& scene = self.prepared_.scene;
-  const Ray exact = ray_to_light(self.queries_[self.query_[ray]].from, *self.light_);
+  const Ray exact = ray_to_light(self.query(self.number_[ray]).from, *self.light_);
   const Hit hit = intersect(scene, primitive, exact, kRayStart, counts);
   if (!hit.found() || !before_light(scene, hit, exact, self.light_->position, counts)) return;
   packet.primitive[ray] = static_cast<std::int32_t>(primitive);

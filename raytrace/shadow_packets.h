@@ -24,15 +24,16 @@ class ShadowPackets {
  public:
   ShadowPackets(const Prepared& prepared, Isa isa);
 
-  // dark[i] != 0 where something blocks query i. The light is not directional.
-  void trace(const Light& light, std::span<const ShadowQuery> queries, std::vector<std::uint8_t>& dark,
-             SignCounts& counts);
+  // dark[k] != 0 where something blocks queries[asking[k]]. The light is not directional. Neighbours in this order should
+  // be neighbours in space.
+  void trace(const Light& light, std::span<const ShadowQuery> queries, std::span<const std::uint32_t> asking,
+             std::vector<std::uint8_t>& dark, SignCounts& counts);
 
  private:
   // A query on a face of the cube: P = light + (axis + u U + v V) / per_depth.
   struct Place {
     double u = 0, v = 0, per_depth = 0;
-    std::uint32_t query = 0, own = kNone;
+    std::uint32_t number = 0, own = kNone;  // in asking_; ShadowQuery::own
   };
   // What the rays of a group, or of more, have in common.
   struct Extent {
@@ -44,14 +45,16 @@ class ShadowPackets {
     double area() const { return (high_u - low_u) * (high_v - low_v); }
   };
 
-  Place place_of(int face, const glm::dvec3& p, std::size_t query) const;
-  bool trace_on_one_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts);
+  bool find_places(int face, bool all);
+  template <int kAxis>
+  bool find_places_along(int face, bool all);
   double find_groups();
   void trace_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts);
   void sort_places();
   void trace_groups(std::size_t first, std::size_t last, const Extent& extent,
                     std::vector<std::uint8_t>& dark, SignCounts& counts);
-  bool is_dark(std::uint32_t query, SignCounts& counts) const;
+  const ShadowQuery& query(std::size_t number) const { return queries_[asking_[number]]; }
+  bool is_dark(std::size_t number, SignCounts& counts) const;
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
 
   const Prepared& prepared_;
@@ -59,12 +62,13 @@ class ShadowPackets {
   RayPacket packet_;
   const Light* light_ = nullptr;
   std::span<const ShadowQuery> queries_;
+  std::span<const std::uint32_t> asking_;
   // Of one face, in the order of the queries and sorted.
   std::vector<Place> places_, sorted_;
   std::vector<std::uint32_t> keys_;
   std::vector<Extent> groups_;
-  Extent whole_;                            // of all groups
-  RayPacket::PerRay<std::uint32_t> query_;  // of the packet's rays
+  Extent whole_;                             // of all groups
+  RayPacket::PerRay<std::uint32_t> number_;  // of the packet's rays
 };
 
 }  // namespace sidelight::raytrace

@@ -147,18 +147,18 @@ Counts check_eye(const Prepared& prepared, const Camera& camera, Isa isa) {
   return result;
 }
 
-Counts check_shadows(const Prepared& prepared, const Light& light, const std::vector<ShadowQuery>& all,
+Counts check_shadows(const Prepared& prepared, const Light& light, const std::vector<ShadowQuery>& queries,
                      Isa isa) {
   Counts result;
   SignCounts counts;
-  std::vector<ShadowQuery> queries;
-  for (const ShadowQuery& query : all)
-    if (faces_light(prepared.scene, query, light)) queries.push_back(query);
+  std::vector<std::uint32_t> asking;
+  for (std::uint32_t i = 0; i < queries.size(); ++i)
+    if (faces_light(prepared.scene, queries[i], light)) asking.push_back(i);
   raytrace::ShadowPackets packets(prepared, isa);
   std::vector<std::uint8_t> dark;
-  packets.trace(light, queries, dark, counts);
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    const Ray ray = raytrace::ray_to_light(queries[i].from, light);
+  packets.trace(light, queries, asking, dark, counts);
+  for (std::size_t i = 0; i < asking.size(); ++i) {
+    const Ray ray = raytrace::ray_to_light(queries[asking[i]].from, light);
     const bool expected = blocker(prepared, ray, &light.position, counts).found();
     ++result.asked;
     result.different += (dark[i] != 0) != expected;
