@@ -26,13 +26,16 @@ std::size_t add_groups_met(const RayPacket& p, const LeafSetup& s, std::size_t i
       return mul_add(F(x), load<F>(&p.group_u[greatest_end(x)][g]),
                      mul_add(F(y), load<F>(&p.group_v[greatest_end(y)][g]), F(c)));
     };
-    const F e0 = greatest(s.x[0][i], s.y[0][i], s.c[0][i]), e1 = greatest(s.x[1][i], s.y[1][i], s.c[1][i]),
-            e2 = greatest(s.x[2][i], s.y[2][i], s.c[2][i]);
     const F w = greatest(s.wx[i], s.wy[i], s.wc[i]) + F(s.w_error[i]);
-    const Mask<F> met = F(s.low_u[i]) <= most(p.group_u) && F(s.high_u[i]) >= least(p.group_u) &&
-                        F(s.low_v[i]) <= most(p.group_v) && F(s.high_v[i]) >= least(p.group_v) &&
-                        lane_min<F>(lane_min<F>(e0, e1), e2) >= F(-s.doubt[i]) &&
-                        w * F(kSurely) >= lane_max<F>(load<F>(&p.least_w[g]), F(0));
+    Mask<F> met = F(s.low_u[i]) <= most(p.group_u) && F(s.high_u[i]) >= least(p.group_u) &&
+                  F(s.low_v[i]) <= most(p.group_v) && F(s.high_v[i]) >= least(p.group_v) &&
+                  w * F(kSurely) >= lane_max<F>(load<F>(&p.least_w[g]), F(0));
+    // Where the rectangle holds one group or none there is little left for the edges to say.
+    if (count<F>(met) > 1) {
+      const F e0 = greatest(s.x[0][i], s.y[0][i], s.c[0][i]), e1 = greatest(s.x[1][i], s.y[1][i], s.c[1][i]),
+              e2 = greatest(s.x[2][i], s.y[2][i], s.c[2][i]);
+      met = met && lane_min<F>(lane_min<F>(e0, e1), e2) >= F(-s.doubt[i]);
+    }
     size +=
         store_some<F>(met, rays + I(static_cast<std::int32_t>(i << 8 | g * RayPacket::kGroup)), &pairs[size]);
   }
