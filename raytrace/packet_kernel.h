@@ -43,18 +43,11 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
 template <class D>
 void find_squares(RayPacket& p) {
   const Vec3<D> W = wide_of<D>(p.W), U = wide_of<D>(p.U), V = wide_of<D>(p.V);
+  const D per_square(1 / (p.length * p.length));
   for (std::size_t i = 0; i < static_cast<std::size_t>(p.groups) * RayPacket::kGroup; i += kLanes<D>) {
     const Vec3<D> d =
         (W + to_double<D>(load<FloatsOf<D>>(&p.u[i])) * U) + to_double<D>(load<FloatsOf<D>>(&p.v[i])) * V;
-    store(dot(d, d), &p.square[i]);
-  }
-  p.least_square.fill(0);
-  for (std::size_t g = 0; g < static_cast<std::size_t>(p.groups); ++g) {
-    const double* square = &p.square[g * RayPacket::kGroup];
-    D low = load<D>(square);
-    for (int i = kLanes<D>; i < RayPacket::kGroup; i += kLanes<D>)
-      low = lane_min<D>(low, load<D>(square + i));
-    p.least_square[g] = static_cast<float>(least(low)) * (1 - 0x1p-20f);
+    store(to_float<D>(per_square * dot(d, d)), &p.square[i]);
   }
 }
 

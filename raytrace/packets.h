@@ -50,10 +50,8 @@ struct RayPacket {
 
   // Derived.
   int groups = 0;
-  float least = 0;  // w of all rays
-  // Where there are spheres: d . d, and the least of each group.
-  alignas(64) PerRay<double> square;
-  alignas(64) PerGroup<float> least_square;
+  float least = 0;                   // w of all rays
+  alignas(64) PerRay<float> square;  // where there are spheres: (d / length)²
 
   // Decides about a ray and a primitive, and changes w and primitive accordingly.
   void (*ask)(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) = nullptr;
