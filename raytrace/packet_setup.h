@@ -76,6 +76,16 @@ D most_of(const Vec3<D>& f, const std::array<D, 3>& size) {
                  mul_add(lane_abs<D>(f.y), size[1], D(lane_abs<D>(f.z) * size[2])));
 }
 
+template <class D>
+std::array<D, 3> wide(const std::array<double, 3>& numbers) {
+  return {D(numbers[0]), D(numbers[1]), D(numbers[2])};
+}
+// The most that |u|, |v| and 1 can be.
+template <class D>
+std::array<D, 3> extents(const RayPacket& p) {
+  return wide<D>({static_cast<double>(p.extent_u), static_cast<double>(p.extent_v), 1});
+}
+
 // The rectangle of (u, v) that surely holds the triangle; all of the plane where it does not lie ahead, nothing where it
 // lies behind. u is off by 2^-22 of it, for the quotient and s, and by what the error of a place makes, and of a ray.
 template <class D>
@@ -115,39 +125,24 @@ Mask<D> set_up_rectangle(const RayPacket& p, const PacketAxes& axes, const std::
   return alive;
 }
 
-// Those from `lane` on, of the `count` of a leaf.
+// What the edges need of the plane.
 template <class D>
-void set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
-                      std::size_t lane, LeafSetup& out) {
-  const auto corner = [&](std::uint32_t k) {
-    const double* row = leaf + lane + 3 * k * count;
-    return Vec3<D>{load<D>(row), load<D>(row + count), load<D>(row + 2 * count)};
-  };
-  const auto wide = [](const Vec3<double>& v) { return Vec3<D>{D(v.x), D(v.y), D(v.z)}; };
-  const Vec3<D> row0 = wide(axes.row[0]), row1 = wide(axes.row[1]), row2 = wide(axes.row[2]);
-  const auto in_axes = [&](const Vec3<D>& x) {
-    return Vec3<D>{fused_dot(row0, x), fused_dot(row1, x), fused_dot(row2, x)};
-  };
-  const Vec3<D> v0 = corner(0), a0 = v0 - wide_of<D>(p.origin), e1 = corner(1) - v0, e2 = corner(2) - v0;
-  const D m = lane_max<D>(l1(e1), l1(e2)), l = l1(a0) + m;
-  const Vec3<D> q0 = in_axes(a0), q1 = in_axes(e1), q2 = in_axes(e2);
-  const std::array<Vec3<D>, 3> q{q0, q0 + q1, q0 + q2};
-  const Mask<D> alive = set_up_rectangle<D>(p, axes, q, l, lane, out);
-  out.alive |= mask_bits<D>(alive) << lane;
-  if (!any<D>(alive)) return;
+struct PlaneSetup {
+  D h, most_w;  // n . q_0, and the greatest 1/t of any ray
+  Mask<D> sure;
+};
 
-  // 1/t
-  const Vec3<D> n = fused_cross(q1, q2);
-  const std::array<D, 3> sizes{D(axes.size[0]), D(axes.size[1]), D(axes.size[2])};
-  const std::array<D, 3> extents{D(static_cast<double>(p.extent_u)), D(static_cast<double>(p.extent_v)),
-                                 D(1)};
-  const D h = fused_dot(q0, n), size_h = lane_abs<D>(h);
-  const D size_n = most_of(n, sizes), off = D(axes.per_det) * (l * m);
+// 1/t over (u, v).
+template <class D>
+PlaneSetup<D> set_up_depth(const RayPacket& p, const PacketAxes& axes, const Vec3<D>& q0, const Vec3<D>& n,
+                           const D& l, const D& m, std::size_t lane, LeafSetup& out) {
+  const D h = fused_dot(q0, n), size_h = lane_abs<D>(h), off = D(axes.per_det) * (l * m);
+  const D size_n = most_of(n, wide<D>(axes.size));
   const Mask<D> sure = size_h > mul_add(D(0x1p-27), l, D(0x1p-25 * (axes.kappa * axes.kappa)) * m) * off &&
                        size_h > lane_max<D>(D(0x1p-17) * l, D(0x1p-20 * p.reach)) * size_n;
   const D per_h = select<D>(sure, D(1) / select<D>(sure, h, D(1)), D(0));
   const Vec3<D> w = per_h * n;
-  const D most_w = most_of(w, extents);
+  const D most_w = most_of(w, extents<D>(p));
   const D w_error =
       mul_add(D(0x1p-21), most_w, D(p.place_error) * (lane_abs<D>(w.x) + lane_abs<D>(w.y))) +
       (D(0x1p-46 * p.length) * mul_add(D(axes.kappa), m, l)) * (m * lane_abs<D>(per_h) * D(axes.per_det));
@@ -156,25 +151,54 @@ void set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* 
   store(to_float<D>(w.z), &out.wc[lane]);
   store(to_float<D>(select<D>(sure, w_error, D(std::numeric_limits<double>::infinity()))),
         &out.w_error[lane]);
+  return {h, most_w, sure};
+}
 
-  // Edges, turned by the side.
-  const D turn = select<D>(h < D(0), D(-1), D(1));
-  const D reach_l = l + D(p.distance);
+// The edge functions, turned by the side.
+template <class D>
+void set_up_edges(const RayPacket& p, const PacketAxes& axes, const std::array<Vec3<D>, 3>& q, const D& l,
+                  const PlaneSetup<D>& plane, std::size_t lane, LeafSetup& out) {
+  const D turn = select<D>(plane.h < D(0), D(-1), D(1)), reach_l = l + D(p.distance);
   const D ray = D(0x1p-46 * p.length * axes.per_det * (1 + axes.kappa)) * (reach_l * reach_l);
-  const D near = D(p.near_error) * mul_add(D(p.reach), most_w, D(p.length));
+  const D near = D(p.near_error) * mul_add(D(p.reach), plane.most_w, D(p.length));
   D doubt(0);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3<D> edge = fused_cross(q[(k + 1) % 3], q[(k + 2) % 3]);
-    const D unit = most_of(edge, extents);
+    const D unit = most_of(edge, extents<D>(p));
     const D rounding = mul_add(D(p.place_error), D(lane_abs<D>(edge.x) + lane_abs<D>(edge.y)),
-                               mul_add(near, most_of(edge, sizes), ray));
+                               mul_add(near, most_of(edge, wide<D>(axes.size)), ray));
     const D per_unit = D(1) / select<D>(unit > D(0), unit, D(1)), scale = turn * per_unit;
     store(to_float<D>(scale * edge.x), &out.x[k][lane]);
     store(to_float<D>(scale * edge.y), &out.y[k][lane]);
     store(to_float<D>(scale * edge.z), &out.c[k][lane]);
     doubt = lane_max<D>(doubt, rounding * per_unit);
   }
-  store(to_float<D>(select<D>(sure, doubt + D(0x1p-21), D(2))), &out.doubt[lane]);
+  store(to_float<D>(select<D>(plane.sure, doubt + D(0x1p-21), D(2))), &out.doubt[lane]);
+}
+
+// Triangles from `lane` on, of the `count` of a leaf.
+template <class D>
+void set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
+                      std::size_t lane, LeafSetup& out) {
+  const auto corner = [&](std::uint32_t k) {
+    const double* row = leaf + lane + 3 * k * count;
+    return Vec3<D>{load<D>(row), load<D>(row + count), load<D>(row + 2 * count)};
+  };
+  const auto in_axes = [&](const Vec3<D>& x) {
+    const auto along = [&](const Vec3<double>& row) {
+      return fused_dot(Vec3<D>{D(row.x), D(row.y), D(row.z)}, x);
+    };
+    return Vec3<D>{along(axes.row[0]), along(axes.row[1]), along(axes.row[2])};
+  };
+  const Vec3<D> v0 = corner(0), a0 = v0 - wide_of<D>(p.origin), e1 = corner(1) - v0, e2 = corner(2) - v0;
+  const D m = lane_max<D>(l1(e1), l1(e2)), l = l1(a0) + m;
+  const Vec3<D> q0 = in_axes(a0), q1 = in_axes(e1), q2 = in_axes(e2);
+  const std::array<Vec3<D>, 3> q{q0, q0 + q1, q0 + q2};
+  const Mask<D> alive = set_up_rectangle<D>(p, axes, q, l, lane, out);
+  out.alive |= mask_bits<D>(alive) << lane;
+  if (!any<D>(alive)) return;
+  const PlaneSetup<D> plane = set_up_depth<D>(p, axes, q0, fused_cross(q1, q2), l, m, lane, out);
+  set_up_edges<D>(p, axes, q, l, plane, lane, out);
 }
 
 }  // namespace sidelight::raytrace

@@ -30,8 +30,8 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | x << 1) & 0x5555;
 }
 
-// Of the cube around the light: +x, -x, +y, ...
 double depth_on_cube(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+// Of the cube around the light: +x, -x, +y, ...
 int face_of(const glm::dvec3& p) {
   const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
   const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
