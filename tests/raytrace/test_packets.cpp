@@ -176,7 +176,7 @@ Counts check_shadows(const Prepared& prepared, const Light& light, const std::ve
   return result;
 }
 
-std::uint64_t scenes() { return 4 + tier_count("rays_per_case") / 20000; }
+std::uint64_t scenes() { return 4 + tier_count("rays_per_case") / 50000; }
 
 Counts check_all(const Drawn& drawn, std::uint64_t seed) {
   Random random(seed);
