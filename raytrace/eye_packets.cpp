@@ -13,6 +13,15 @@ double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v
 
 constexpr int kEdge = 16, kBlock = 4;  // of a packet and of its groups, in samples
 
+// visit(column, row) of a packet's samples, block by block, so that a group's rays are close to each other.
+template <class Visit>
+void for_each_sample(int columns, int rows, const Visit& visit) {
+  for (int y = 0; y < rows; y += kBlock)
+    for (int x = 0; x < columns; x += kBlock)
+      for (int row = y; row < std::min(y + kBlock, rows); ++row)
+        for (int column = x; column < std::min(x + kBlock, columns); ++column) visit(column, row);
+}
+
 }  // namespace
 
 double reach_of(const Prepared& prepared, const glm::dvec3& origin) {
@@ -32,6 +41,8 @@ EyePackets::EyePackets(const Prepared& prepared, const Camera& camera, Isa isa)
   packet_.reach = reach_of(prepared, camera.eye);
   // place.h: what is near lies within 10 (step + 32 u reach) of the place, up to 16 reach away: below 2^-40 reach.
   packet_.near_error = 0x1p-39;
+  packet_.lattice = true;
+  packet_.extent_u = packet_.extent_v = kEdge / 2;
   packet_.ask = ask;
   packet_.context = this;
 }
@@ -43,43 +54,67 @@ void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& 
   alone.resize(hits.size());
   for (int y = 0; y < rows; y += kEdge)
     for (int x = 0; x < columns; x += kEdge) {
-      load(X0 + x, Y0 + y, X0 + std::min(x + kEdge, columns), Y0 + std::min(y + kEdge, rows),
-           static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x), stride);
+      load(X0 + x, Y0 + y, std::min(kEdge, columns - x), std::min(kEdge, rows - y));
       trace_packet(isa_, prepared_, packet_, counts);
+      const std::size_t first = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
       for (std::size_t i = 0; i < static_cast<std::size_t>(packet_.size); ++i) {
-        hits[sample_[i].index] = Hit();
-        hits[sample_[i].index].primitive = static_cast<std::uint32_t>(packet_.primitive[i]);
-        alone[sample_[i].index] = !packet_.asked[i];
+        const std::size_t index = first + sample_[i].row * stride + sample_[i].column;
+        hits[index] = Hit();
+        hits[index].primitive = static_cast<std::uint32_t>(packet_.primitive[i]);
+        alone[index] = !packet_.asked[i];
       }
     }
 }
 
-// Block by block, so that a group's rays are close to each other.
-void EyePackets::load(int X0, int Y0, int X1, int Y1, std::size_t first, std::size_t stride) {
-  const int middle_X = X0 + kEdge / 2, middle_Y = Y0 + kEdge / 2;
-  std::size_t i = 0;
-  for (int y = Y0; y < Y1; y += kBlock)
-    for (int x = X0; x < X1; x += kBlock)
-      for (int Y = y; Y < std::min(y + kBlock, Y1); ++Y)
-        for (int X = x; X < std::min(x + kBlock, X1); ++X, ++i) {
-          packet_.u[i] = static_cast<float>(X - middle_X);
-          packet_.v[i] = static_cast<float>(Y - middle_Y);
-          sample_[i] = {X, Y,
-                        first + static_cast<std::size_t>(Y - Y0) * stride + static_cast<std::size_t>(X - X0)};
-        }
-  packet_.size = static_cast<int>(i);
+std::vector<std::uint32_t> EyePackets::order(int columns, int rows) {
+  std::vector<std::uint32_t> order;
+  for (int y = 0; y < rows; y += kEdge)
+    for (int x = 0; x < columns; x += kEdge)
+      for_each_sample(std::min(kEdge, columns - x), std::min(kEdge, rows - y), [&](int column, int row) {
+        order.push_back(static_cast<std::uint32_t>((y + row) * columns + x + column));
+      });
+  return order;
+}
+
+void EyePackets::load(int X0, int Y0, int columns, int rows) {
+  X0_ = X0;
+  Y0_ = Y0;
+  if (columns != columns_ || rows != rows_) place(columns, rows);
+  packet_.W = camera_.direction(X0 + kEdge / 2, Y0 + kEdge / 2);
   packet_.w.fill(0);
-  packet_.primitive.fill(-1);
-  packet_.asked.fill(false);
-  packet_.W = camera_.direction(middle_X, middle_Y);
-  finish(packet_);
+  packet_.least_w.fill(0);
+  start(packet_);
+}
+
+// All packets of a size are alike.
+void EyePackets::place(int columns, int rows) {
+  columns_ = columns;
+  rows_ = rows;
+  std::size_t i = 0;
+  for_each_sample(columns, rows, [&](int column, int row) {
+    packet_.u[i] = static_cast<float>(column - kEdge / 2);
+    packet_.v[i] = static_cast<float>(row - kEdge / 2);
+    sample_[i++] = {static_cast<std::uint8_t>(column), static_cast<std::uint8_t>(row)};
+  });
+  packet_.size = static_cast<int>(i);
+  const auto bound = [&](const float* place, std::size_t first, auto& of) {
+    const std::size_t last = std::min(first + RayPacket::kGroup, i);
+    const auto [low, high] = std::minmax_element(place + first, place + last);
+    of[0][first / RayPacket::kGroup] = *low;
+    of[1][first / RayPacket::kGroup] = *high;
+  };
+  for (std::size_t first = 0; first < i; first += RayPacket::kGroup) {
+    bound(packet_.u.data(), first, packet_.group_u);
+    bound(packet_.v.data(), first, packet_.group_v);
+  }
 }
 
 // As nearest(): before what is kept, by depth and number.
 void EyePackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) {
   const EyePackets& self = *static_cast<const EyePackets*>(packet.context);
   const Scene& scene = self.prepared_.scene;
-  const Ray exact{packet.origin, self.camera_.direction(self.sample_[ray].X, self.sample_[ray].Y)};
+  const Ray exact{packet.origin, self.camera_.direction(self.X0_ + self.sample_[ray].column,
+                                                        self.Y0_ + self.sample_[ray].row)};
   const Hit hit = intersect(scene, primitive, exact, kRayStart, counts);
   if (!hit.found()) return;
   if (packet.primitive[ray] >= 0 &&

@@ -22,22 +22,26 @@ class EyePackets {
   // that is within 16 reach().
   void trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& hits, std::vector<std::uint8_t>& alone,
              SignCounts& counts);
+  // The numbers of that many samples in the order of the packets' rays: neighbours stay together.
+  static std::vector<std::uint32_t> order(int columns, int rows);
   double reach() const { return packet_.reach; }
   double ray_length() const { return packet_.length; }  // at least |d| of any ray
 
  private:
   struct Sample {
-    int X = 0, Y = 0;
-    std::size_t index = 0;
+    std::uint8_t column = 0, row = 0;
   };
 
-  void load(int X0, int Y0, int X1, int Y1, std::size_t first, std::size_t stride);
+  void load(int X0, int Y0, int columns, int rows);
+  void place(int columns, int rows);
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
 
   const Prepared& prepared_;
   const Camera& camera_;
   Isa isa_;
   RayPacket packet_;
+  // Of the packet: its first sample, its size, and its rays' samples from the first on.
+  int X0_ = 0, Y0_ = 0, columns_ = 0, rows_ = 0;
   RayPacket::PerRay<Sample> sample_;
 };
 

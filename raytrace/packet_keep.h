@@ -31,33 +31,37 @@ void ask_lanes(RayPacket& p, std::size_t first, std::uint32_t bits, std::uint32_
   }
 }
 
-// Keeps the primitive where it is surely met and surely nearer than what is kept; asks where that is doubtful. Whether
-// anything may have changed.
+// Rays of a packet that the primitive itself asks for, as bits.
+template <class F>
+std::uint32_t own_bits(const RayPacket& p, std::size_t first, std::uint32_t primitive) {
+  using I = Ints<F>;
+  return mask_bits<I>(load<I>(&p.own[first]) == I(static_cast<std::int32_t>(primitive)));
+}
+
+// Keeps the primitive where it is surely met and surely nearer than what is kept; asks where that is doubtful. `w_error`
+// is infinite where nothing is known of its side and depth; then nothing is met for sure. Whether anything may have
+// changed.
 template <class F>
 bool keep_nearer(RayPacket& p, std::size_t first, std::uint32_t primitive, const Mask<F>& met,
-                 const Mask<F>& may, const F& w, const F& w_error, bool sure, SignCounts& counts) {
+                 const Mask<F>& may, const F& w, const F& w_error, SignCounts& counts) {
   using I = Ints<F>;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const F held = load<F>(&p.w[first]);
   const Mask<F> nearer = met && w * F(kFloatDepthError) > w_error && w > held * F(kSurely);
   const Mask<F> farther = (w + w_error) * F(kSurely) < held;
-  const Mask<F> open = held < F(std::numeric_limits<float>::infinity());
-  const Mask<F> decided = sure ? nearer || farther : Mask<F>(false);
-  const Mask<F> doubtful = may && open && !decided;
-  const Mask<F> taken = sure ? nearer : Mask<F>(false);
-  std::uint32_t asked = mask_bits<F>(doubtful);
-  if (p.any_hit && sure)
-    // The light lies clearly before the surface that asks, which then is not in its way.
-    for (std::uint32_t bits = asked & mask_bits<F>(met); bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      if (p.own[first + lane] == static_cast<std::int32_t>(primitive)) asked &= ~(1u << lane);
-    }
-  if (any<F>(taken)) {
-    store(select<F>(taken, p.any_hit ? F(std::numeric_limits<float>::infinity()) : w, held), &p.w[first]);
+  const Mask<F> open = may && held < F(kInfinity);
+  std::uint32_t asked = mask_bits<F>(open && !(nearer || farther));
+  // The light lies clearly before the surface that asks, which then is not in its way.
+  if (p.any_hit && asked != 0) asked &= ~(mask_bits<F>(met) & own_bits<F>(p, first, primitive));
+  if (any<F>(nearer)) {
+    store(select<F>(nearer, p.any_hit ? F(kInfinity) : w, held), &p.w[first]);
     const F id = from_bits<F>(I(static_cast<std::int32_t>(primitive)));
-    store(to_bits<F>(select<F>(taken, id, from_bits<F>(load<I>(&p.primitive[first])))), &p.primitive[first]);
+    store(to_bits<F>(select<F>(nearer, id, from_bits<F>(load<I>(&p.primitive[first])))), &p.primitive[first]);
+  } else if (asked == 0) {
+    return false;
   }
   if (asked != 0) ask_lanes<F>(p, first, asked, primitive, counts);
-  return asked != 0 || any<F>(taken);
+  return true;
 }
 
 template <class F>

@@ -11,58 +11,54 @@ namespace sidelight::raytrace {
 // A plane is a triangle without edges.
 template <class F>
 void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive, SignCounts& counts) {
-  if (casts_none<F>(prepared, p, primitive)) return;
   const Plane& plane = prepared.scene.planes[primitive_ref(prepared.scene, primitive).index];
   const Vec3<double> n{plane.normal.x, plane.normal.y, plane.normal.z};
   const auto along = [&](const glm::dvec3& d) { return (n.x * d.x + n.y * d.y) + n.z * d.z; };
   const double h = along(plane.point - p.origin), size_h = lane_abs(h);
   const bool sure = size_h > 0x1p-17 * p.distance && size_h > 0x1p-20 * p.reach;
-  const double per_h = 1 / (sure ? h : 1.0);
+  const double per_h = sure ? 1 / h : 0;
   const double x = per_h * along(p.U), y = per_h * along(p.V), c = per_h * along(p.W);
   const double error =
       0x1p-21 *
           ((lane_abs(x) * static_cast<double>(p.extent_u) + lane_abs(y) * static_cast<double>(p.extent_v)) +
            lane_abs(c)) +
       p.place_error * (lane_abs(x) + lane_abs(y)) + 0x1p-46 * p.length * lane_abs(per_h);
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   LeafSetup s;
   for (std::size_t k = 0; k < 3; ++k) {
     s.x[k][0] = s.y[k][0] = 0;
     s.c[k][0] = 1;
   }
-  s.doubt[0] = 0.5f;
+  s.doubt[0] = sure ? 0.5f : 2.0f;
   s.wx[0] = static_cast<float>(x);
   s.wy[0] = static_cast<float>(y);
   s.wc[0] = static_cast<float>(c);
-  s.w_error[0] = static_cast<float>(error);
-  s.sure[0] = sure ? 1.0f : 0.0f;
-  update_least<F>(p, test_triangle<F>(p, s, 0, primitive, counts));
+  s.w_error[0] = sure ? static_cast<float>(error) : kInfinity;
+  s.low_u[0] = s.low_v[0] = -kFar;
+  s.high_u[0] = s.high_v[0] = kFar;
+  s.alive = 1;
+  test_set_up<F>(prepared, p, s, &primitive, counts);
 }
 
 template <class D>
 void find_squares(RayPacket& p) {
   const Vec3<D> W = wide_of<D>(p.W), U = wide_of<D>(p.U), V = wide_of<D>(p.V);
+  const D per_square(1 / (p.length * p.length));
   for (std::size_t i = 0; i < static_cast<std::size_t>(p.groups) * RayPacket::kGroup; i += kLanes<D>) {
     const Vec3<D> d =
         (W + to_double<D>(load<FloatsOf<D>>(&p.u[i])) * U) + to_double<D>(load<FloatsOf<D>>(&p.v[i])) * V;
-    store(dot(d, d), &p.square[i]);
-  }
-  p.least_square.fill(0);
-  for (std::size_t g = 0; g < static_cast<std::size_t>(p.groups); ++g) {
-    const double* square = &p.square[g * RayPacket::kGroup];
-    D low = load<D>(square);
-    for (int i = kLanes<D>; i < RayPacket::kGroup; i += kLanes<D>)
-      low = lane_min<D>(low, load<D>(square + i));
-    p.least_square[g] = static_cast<float>(least(low)) * (1 - 0x1p-20f);
+    store(to_float<D>(per_square * dot(d, d)), &p.square[i]);
   }
 }
 
 template <class F, class B, class D>
 void meet_all(const Prepared& prepared, RayPacket& p, SignCounts& counts) {
+  const PacketAxes axes = packet_axes(p);
   for (const std::uint32_t plane : prepared.planes) test_plane<F>(prepared, p, plane, counts);
-  walk_packet<F, B, D>(prepared, prepared.triangles, p, counts);
+  walk_packet<F, B, D>(prepared, axes, prepared.triangles, p, counts);
   if (prepared.spheres.bvh.nodes.empty() || p.budget < 0) return;
   find_squares<D>(p);
-  walk_packet<F, B, D>(prepared, prepared.spheres, p, counts);
+  walk_packet<F, B, D>(prepared, axes, prepared.spheres, p, counts);
 }
 
 }  // namespace sidelight::raytrace

@@ -77,8 +77,23 @@ std::uint32_t meet_boxes(const BvhNode& node, const PacketPlanes& planes,
   return bits;
 }
 
+// All lines of a node, or of a leaf: they will be asked for soon, and where the tree is large, they are far away.
+template <class Tree>
+void prefetch(const Tree& leaves, std::uint32_t first, std::uint32_t count) {
+  constexpr std::size_t kLine = 64;
+  const auto* from = count == 0 ? reinterpret_cast<const char*>(&leaves.bvh.nodes[first])
+                                : reinterpret_cast<const char*>(leaves.leaf(first));
+  const std::size_t size = count == 0 ? sizeof(BvhNode) : Tree::kRowCount * sizeof(double) * count;
+  for (std::size_t at = 0; at < size; at += kLine) __builtin_prefetch(from + at);
+}
+
+// A leaf in steps of RayPacket::budget, a node being one.
+template <class Tree>
+constexpr int kLeafWork = std::is_same_v<Tree, SphereLeaves> ? 16 : 4;
+
 template <class F, class B, class D, class Tree>
-void walk_packet(const Prepared& prepared, const Tree& leaves, RayPacket& p, SignCounts& counts) {
+void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& leaves, RayPacket& p,
+                 SignCounts& counts) {
   const Bvh& bvh = leaves.bvh;
   if (bvh.nodes.empty() || p.groups == 0) return;
   const PacketPlanes planes = packet_planes<B>(p, bvh);
@@ -94,10 +109,10 @@ void walk_packet(const Prepared& prepared, const Tree& leaves, RayPacket& p, Sig
     // Surely behind all that is kept; all rays of an infinite w are done.
     if (p.least == std::numeric_limits<float>::infinity()) return;
     if (top.depth * p.least > 1 + 0x1p-12f) continue;
-    p.budget -= top.count > 0 ? 8 : 1;
+    p.budget -= top.count > 0 ? kLeafWork<Tree> : 1;
     if (p.budget < 0) return;
     if (top.count > 0) {
-      test_leaf<F, D>(prepared, leaves, top.first, top.count, p, counts);
+      test_leaf<F, D>(prepared, axes, leaves, top.first, top.count, p, counts);
       continue;
     }
     ++counts.nodes;
@@ -108,6 +123,7 @@ void walk_packet(const Prepared& prepared, const Tree& leaves, RayPacket& p, Sig
     for (std::uint32_t bits = met; bits != 0; bits &= bits - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(bits));
       const Entry child{depth[i], node.first[i], node.count[i]};
+      prefetch(leaves, child.first, child.count);
       std::size_t at = size++;
       for (; at > base && stack[at - 1].depth <= child.depth; --at) stack[at] = stack[at - 1];
       stack[at] = child;

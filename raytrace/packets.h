@@ -30,6 +30,7 @@ struct RayPacket {
   double place_error = 0;  // u and v may be off by this
   double near_error = 0;   // what is nearer to a ray than this times its distance is doubtful as well
   double reach = 0;        // greatest coordinate of all that can be met, and of the origin
+  bool lattice = false;    // whether all u and v are whole numbers
   alignas(64) PerRay<float> u, v;
   alignas(64) PerRay<float> w;  // what counts is nearer than 1/w; 0: anything. Then of what is kept
   // What is kept: the nearest, or of shadow rays some blocker; -1: none.
@@ -37,28 +38,29 @@ struct RayPacket {
   alignas(64) PerRay<std::int32_t> own;  // of shadow rays: the flat surface that asks, or -1
   bool any_hit = false;                  // shadow rays: the first one will do
   bool all_cast = true;                  // whether every material casts shadows
-  // Work left, at the cost of a node as 1 and a leaf as 8: where it falls below 0 the packet is left as it is by then.
+  // Work left, in nodes (packet_walk.h): where it falls below 0 the packet is left as it is by then.
   int budget = std::numeric_limits<int>::max();
   // Whether anything at all was doubtful. If not, nothing but what is kept comes near to where the ray ends.
   PerRay<bool> asked{};
 
-  // Derived by finish().
-  int groups = 0;
+  // What bounds the rays: the greatest |u| and |v|, the least and the greatest of each group, and its least w.
   float extent_u = 0, extent_v = 0;
-  alignas(64) PerGroup<float> group_u, group_v, half_u, half_v;
-  alignas(64) PerGroup<float> least_w;  // of its rays
-  float least = 0;
-  // Where there are spheres: d . d, and the least of each group.
-  alignas(64) PerRay<double> square;
-  alignas(64) PerGroup<float> least_square;
+  alignas(64) std::array<PerGroup<float>, 2> group_u, group_v;
+  alignas(64) PerGroup<float> least_w;
+
+  // Derived.
+  int groups = 0;
+  float least = 0;                   // w of all rays
+  alignas(64) PerRay<float> square;  // where there are spheres: (d / length)²
 
   // Decides about a ray and a primitive, and changes w and primitive accordingly.
   void (*ask)(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) = nullptr;
   void* context = nullptr;
 };
 
-// Fills what is derived. Entries beyond `size`, up to whole groups, become rays that ask for nothing.
-void finish(RayPacket& packet);
+// To be called once the rays and what bounds them are given: nothing is kept yet, and entries beyond `size`, up to whole
+// groups, become rays that ask for nothing.
+void start(RayPacket& packet);
 
 // Meets everything in the scene that casts shadows (any_hit), or simply everything, as far as the budget goes.
 void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, SignCounts& counts);

@@ -10,12 +10,18 @@
 namespace sidelight::raytrace {
 namespace {
 
-// What a packet may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget;
-// a single ray takes about four.
-constexpr int kPacketWork = 16, kRayWork = 2;
+// Places are sorted where groups as they come have more than this times the area of all.
+constexpr double kApart = 1.5;
+
+// What a packet may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget,
+// that is about as much as they would do alone.
+constexpr int kPacketWork = 128, kRayWork = 4;
 
 // Points nearer to the light than this have no direction from it that a double could hold.
 constexpr double kLeastDepth = 1e-100;
+
+// How far beyond its edges a face is used where that spares a second one.
+constexpr double kWide = 2;
 
 // Every second bit of eight.
 std::uint32_t spread(std::uint32_t x) {
@@ -24,27 +30,35 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | x << 1) & 0x5555;
 }
 
-struct Extent {
-  double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
-
-  void grow(double u, double v) {
-    low_u = std::min(low_u, u);
-    high_u = std::max(high_u, u);
-    low_v = std::min(low_v, v);
-    high_v = std::max(high_v, v);
-  }
-  void grow(const Extent& other) {
-    grow(other.low_u, other.low_v);
-    grow(other.high_u, other.high_v);
-  }
-  double area() const { return (high_u - low_u) * (high_v - low_v); }
-};
+double depth_on_cube(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+// Of the cube around the light: +x, -x, +y, ...
+int face_of(const glm::dvec3& p) {
+  const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
+  const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+  return 2 * axis + (p[axis] < 0 ? 1 : 0);
+}
 
 }  // namespace
 
+void ShadowPackets::Extent::grow(const Place& place) {
+  low_u = std::min(low_u, place.u);
+  high_u = std::max(high_u, place.u);
+  low_v = std::min(low_v, place.v);
+  high_v = std::max(high_v, place.v);
+  least_per_depth = std::min(least_per_depth, place.per_depth);
+}
+
+void ShadowPackets::Extent::grow(const Extent& other) {
+  low_u = std::min(low_u, other.low_u);
+  high_u = std::max(high_u, other.high_u);
+  low_v = std::min(low_v, other.low_v);
+  high_v = std::max(high_v, other.high_v);
+  least_per_depth = std::min(least_per_depth, other.least_per_depth);
+}
+
 ShadowPackets::ShadowPackets(const Prepared& prepared, Isa isa) : prepared_(prepared), isa_(isa) {
   packet_.any_hit = true;
-  packet_.length = 3;  // |axis| + |u U| + |v V|, each at most 1
+  packet_.length = 1 + 2 * kWide;  // |axis| + |u U| + |v V|
   packet_.all_cast = std::all_of(prepared.scene.materials.begin(), prepared.scene.materials.end(),
                                  [](const Material& material) { return material.casts_shadow; });
   packet_.ask = ask;
@@ -52,116 +66,171 @@ ShadowPackets::ShadowPackets(const Prepared& prepared, Isa isa) : prepared_(prep
 }
 
 void ShadowPackets::trace(const Light& light, std::span<const ShadowQuery> queries,
-                          std::vector<std::uint8_t>& dark, SignCounts& counts) {
+                          std::span<const std::uint32_t> asking, std::vector<std::uint8_t>& dark,
+                          SignCounts& counts) {
   light_ = &light;
   queries_ = queries;
-  dark.assign(queries.size(), 0);
+  asking_ = asking;
+  dark.assign(asking.size(), 0);
   packet_.origin = light.position;
   packet_.reach = reach_of(prepared_, light.position);
-  for (std::vector<Place>& face : faces_) face.clear();
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    const glm::dvec3 p = queries[i].from - light.position;
-    const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
-    const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
-    const double depth = std::abs(p[axis]), per_depth = 1 / depth;
-    if (depth < kLeastDepth) {
-      dark[i] = is_dark(static_cast<std::uint32_t>(i), counts);
-      continue;
-    }
-    faces_[static_cast<std::size_t>(2 * axis + (p[axis] < 0 ? 1 : 0))].push_back(
-        {per_depth * p[(axis + 1) % 3], per_depth * p[(axis + 2) % 3], depth, static_cast<std::uint32_t>(i),
-         0});
+  if (asking.empty()) return;
+  // Most often one face will do, though some of the places lie beyond its edges.
+  const int first = face_of(query(0).from - light.position);
+  if (find_places(first, true)) return trace_face(first, dark, counts);
+  for (int face = 0; face < 6; ++face) {
+    find_places(face, false);
+    trace_face(face, dark, counts);
   }
-  for (int face = 0; face < 6; ++face) trace_face(face, dark, counts);
+  for (std::size_t i = 0; i < asking.size(); ++i)
+    if (depth_on_cube(query(i).from - light.position) < kLeastDepth) dark[i] = is_dark(i, counts);
 }
 
-// By Morton code, in two passes of a radix sort.
-void ShadowPackets::sort_face() {
-  Extent extent;
-  for (const Place& place : sorted_) extent.grow(place.u, place.v);
-  const double width = std::max({extent.high_u - extent.low_u, extent.high_v - extent.low_v, 0x1p-100});
-  const double scale = 255 / width;
-  for (Place& place : sorted_)
-    place.key = spread(static_cast<std::uint32_t>(scale * (place.u - extent.low_u))) |
-                spread(static_cast<std::uint32_t>(scale * (place.v - extent.low_v))) << 1;
-  other_.resize(sorted_.size());
-  for (const int shift : {0, 8}) {
-    std::array<std::uint32_t, 257> start{};
-    for (const Place& place : sorted_) ++start[(place.key >> shift & 255) + 1];
-    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-    for (const Place& place : sorted_) other_[start[place.key >> shift & 255]++] = place;
-    sorted_.swap(other_);
+// Of all queries, false if some cannot be seen through this face; or of those whose face it is.
+bool ShadowPackets::find_places(int face, bool all) {
+  switch (face / 2) {
+    case 0:
+      return find_places_along<0>(face, all);
+    case 1:
+      return find_places_along<1>(face, all);
+    default:
+      return find_places_along<2>(face, all);
   }
+}
+
+template <int kAxis>
+bool ShadowPackets::find_places_along(int face, bool all) {
+  const double sign = face % 2 == 0 ? 1 : -1;
+  places_.resize(asking_.size());
+  std::size_t size = 0;
+  bool fit = true;
+  for (std::size_t i = 0; i < asking_.size(); ++i) {
+    const ShadowQuery& asked = query(i);
+    const glm::dvec3 p = asked.from - light_->position;
+    const double depth = sign * p[kAxis], per_depth = 1 / depth;
+    const double u = per_depth * p[(kAxis + 1) % 3], v = per_depth * p[(kAxis + 2) % 3];
+    places_[size] = {u, v, per_depth, static_cast<std::uint32_t>(i), asked.own};
+    fit &= depth >= kLeastDepth && std::abs(u) <= kWide && std::abs(v) <= kWide;
+    size += all || (face_of(p) == face && depth >= kLeastDepth);
+  }
+  places_.resize(size);
+  return fit;
+}
+
+// The groups of the places as they stand, and their area.
+double ShadowPackets::find_groups() {
+  constexpr std::size_t kGroup = RayPacket::kGroup;
+  groups_.clear();
+  whole_ = Extent();
+  double filled = 0;
+  for (std::size_t at = 0; at < places_.size(); at += kGroup) {
+    Extent group;
+    for (std::size_t i = at; i < std::min(at + kGroup, places_.size()); ++i) group.grow(places_[i]);
+    groups_.push_back(group);
+    whole_.grow(group);
+    filled += group.area();
+  }
+  return filled;
+}
+
+// By Morton code, of about as many cells as there are places; in a cell they stay in order.
+void ShadowPackets::sort_places() {
+  int bits = 2;
+  while (bits < 6 && places_.size() > std::size_t{1} << 2 * bits) ++bits;
+  const double width = std::max({whole_.high_u - whole_.low_u, whole_.high_v - whole_.low_v, 0x1p-100});
+  const double scale = static_cast<double>((1 << bits) - 1) / width;
+  std::array<std::uint32_t, (1 << 12) + 1> start;
+  std::fill_n(start.begin(), (std::size_t{1} << 2 * bits) + 1, 0u);
+  keys_.resize(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    keys_[i] = spread(static_cast<std::uint32_t>(scale * (places_[i].u - whole_.low_u))) |
+               spread(static_cast<std::uint32_t>(scale * (places_[i].v - whole_.low_v))) << 1;
+    ++start[keys_[i] + 1];
+  }
+  for (std::size_t cell = 1; cell <= std::size_t{1} << 2 * bits; ++cell) start[cell] += start[cell - 1];
+  sorted_.resize(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) sorted_[start[keys_[i]]++] = places_[i];
+  places_.swap(sorted_);
 }
 
 // Cut where what lies between the groups would be much more than the groups.
 void ShadowPackets::trace_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts) {
-  constexpr std::size_t kGroup = RayPacket::kGroup, kCapacity = RayPacket::kCapacity;
+  constexpr std::size_t kGroups = RayPacket::kGroups;
   constexpr double kEmpty = 3;
-  sorted_.swap(faces_[static_cast<std::size_t>(face)]);
-  if (sorted_.empty()) return;
-  sort_face();
-  std::size_t first = 0;
-  Extent whole;
-  double filled = 0;
-  for (std::size_t at = 0; at < sorted_.size(); at += kGroup) {
-    Extent group, more = whole;
-    for (std::size_t i = at; i < std::min(at + kGroup, sorted_.size()); ++i)
-      group.grow(sorted_[i].u, sorted_[i].v);
-    more.grow(group);
-    if (at > first && (at - first == kCapacity || more.area() > kEmpty * (filled + group.area()))) {
-      trace_places(face, first, at, dark, counts);
-      first = at;
-      more = group;
-      filled = 0;
-    }
-    whole = more;
-    filled += group.area();
+  if (places_.empty()) return;
+  if (find_groups() > kApart * whole_.area()) {
+    sort_places();
+    find_groups();
   }
-  trace_places(face, first, sorted_.size(), dark, counts);
-}
-
-void ShadowPackets::trace_places(int face, std::size_t first, std::size_t last,
-                                 std::vector<std::uint8_t>& dark, SignCounts& counts) {
-  Extent extent;
-  double farthest = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    extent.grow(sorted_[i].u, sorted_[i].v);
-    farthest = std::max(farthest, sorted_[i].depth);
-  }
-  const double middle_u = 0.5 * (extent.low_u + extent.high_u),
-               middle_v = 0.5 * (extent.low_v + extent.high_v);
-  packet_.size = static_cast<int>(last - first);
-  for (std::size_t i = 0; i < last - first; ++i) {
-    const Place& place = sorted_[first + i];
-    packet_.u[i] = static_cast<float>(place.u - middle_u);
-    packet_.v[i] = static_cast<float>(place.v - middle_v);
-    packet_.w[i] = static_cast<float>(1 / place.depth);
-    packet_.own[i] = static_cast<std::int32_t>(queries_[place.query].own);
-    query_[i] = place.query;
-  }
-  packet_.primitive.fill(-1);
   const int axis = face / 2;
   packet_.W = packet_.U = packet_.V = glm::dvec3(0);
   packet_.W[axis] = face % 2 == 0 ? 1 : -1;
   packet_.U[(axis + 1) % 3] = 1;
   packet_.V[(axis + 2) % 3] = 1;
+  const glm::dvec3 middle_of_face = packet_.W;
+  const auto trace_from = [&](std::size_t first, std::size_t last, const Extent& extent) {
+    packet_.W = middle_of_face;
+    trace_groups(first, last, extent, dark, counts);
+  };
+  std::size_t first = 0;
+  Extent whole;
+  double filled = 0;
+  for (std::size_t at = 0; at < groups_.size(); ++at) {
+    Extent more = whole;
+    more.grow(groups_[at]);
+    const double area = groups_[at].area();
+    if (at > first && (at - first == kGroups || more.area() > kEmpty * (filled + area))) {
+      trace_from(first, at, whole);
+      first = at;
+      more = groups_[at];
+      filled = 0;
+    }
+    whole = more;
+    filled += area;
+  }
+  trace_from(first, groups_.size(), whole);
+}
+
+void ShadowPackets::trace_groups(std::size_t first, std::size_t last, const Extent& extent,
+                                 std::vector<std::uint8_t>& dark, SignCounts& counts) {
+  constexpr std::size_t kGroup = RayPacket::kGroup;
+  const double middle_u = 0.5 * (extent.low_u + extent.high_u),
+               middle_v = 0.5 * (extent.low_v + extent.high_v);
+  const std::span places(&places_[first * kGroup], std::min(places_.size(), last * kGroup) - first * kGroup);
+  packet_.size = static_cast<int>(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    packet_.u[i] = static_cast<float>(places[i].u - middle_u);
+    packet_.v[i] = static_cast<float>(places[i].v - middle_v);
+    packet_.w[i] = static_cast<float>(places[i].per_depth);
+    packet_.own[i] = static_cast<std::int32_t>(places[i].own);
+    number_[i] = places[i].number;
+  }
   packet_.W += middle_u * packet_.U + middle_v * packet_.V;
-  packet_.distance = 3 * farthest;
-  // Places are rounded in double, at most 1, and in float.
+  packet_.distance = packet_.length / extent.least_per_depth;
+  // Places are rounded in double, at most kWide, and in float.
   packet_.place_error =
-      0x1p-50 + 0x1p-23 * std::max(extent.high_u - extent.low_u, extent.high_v - extent.low_v);
-  finish(packet_);
+      0x1p-49 * kWide + 0x1p-23 * std::max(extent.high_u - extent.low_u, extent.high_v - extent.low_v);
+  // Rounding keeps the order, so that a group's least is that of its rays.
+  packet_.extent_u = static_cast<float>(extent.high_u - middle_u);
+  packet_.extent_v = static_cast<float>(extent.high_v - middle_v);
+  for (std::size_t g = first; g < last; ++g) {
+    packet_.group_u[0][g - first] = static_cast<float>(groups_[g].low_u - middle_u);
+    packet_.group_u[1][g - first] = static_cast<float>(groups_[g].high_u - middle_u);
+    packet_.group_v[0][g - first] = static_cast<float>(groups_[g].low_v - middle_v);
+    packet_.group_v[1][g - first] = static_cast<float>(groups_[g].high_v - middle_v);
+    packet_.least_w[g - first] = static_cast<float>(groups_[g].least_per_depth);
+  }
+  start(packet_);
   packet_.budget = kPacketWork + kRayWork * packet_.size;
   trace_packet(isa_, prepared_, packet_, counts);
   const bool all = packet_.budget >= 0;
-  for (std::size_t i = 0; i < last - first; ++i)
-    dark[query_[i]] = packet_.primitive[i] >= 0 || (!all && is_dark(query_[i], counts));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    dark[number_[i]] = packet_.primitive[i] >= 0 || (!all && is_dark(number_[i], counts));
 }
 
 // Alone.
-bool ShadowPackets::is_dark(std::uint32_t query, SignCounts& counts) const {
-  return blocker(prepared_, ray_to_light(queries_[query].from, *light_), &light_->position, counts, kRayStart,
+bool ShadowPackets::is_dark(std::size_t number, SignCounts& counts) const {
+  return blocker(prepared_, ray_to_light(query(number).from, *light_), &light_->position, counts, kRayStart,
                  Precision::exact, isa_)
       .found();
 }
@@ -170,7 +239,7 @@ void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primit
   const ShadowPackets& self = *static_cast<const ShadowPackets*>(packet.context);
   // As blocker() does; what casts no shadow is not asked about.
   const Scene& scene = self.prepared_.scene;
-  const Ray exact = ray_to_light(self.queries_[self.query_[ray]].from, *self.light_);
+  const Ray exact = ray_to_light(self.query(self.number_[ray]).from, *self.light_);
   const Hit hit = intersect(scene, primitive, exact, kRayStart, counts);
   if (!hit.found() || !before_light(scene, hit, exact, self.light_->position, counts)) return;
   packet.primitive[ray] = static_cast<std::int32_t>(primitive);

@@ -6,6 +6,7 @@
 // (shadow rays traced from the light); here sorted, and cut where they lie too far apart.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,23 +24,37 @@ class ShadowPackets {
  public:
   ShadowPackets(const Prepared& prepared, Isa isa);
 
-  // dark[i] != 0 where something blocks query i. The light is not directional.
-  void trace(const Light& light, std::span<const ShadowQuery> queries, std::vector<std::uint8_t>& dark,
-             SignCounts& counts);
+  // dark[k] != 0 where something blocks queries[asking[k]]. The light is not directional. Neighbours in this order should
+  // be neighbours in space.
+  void trace(const Light& light, std::span<const ShadowQuery> queries, std::span<const std::uint32_t> asking,
+             std::vector<std::uint8_t>& dark, SignCounts& counts);
 
  private:
-  // A query on a face of the cube: P = light + depth (axis + u U + v V).
+  // A query on a face of the cube: P = light + (axis + u U + v V) / per_depth.
   struct Place {
-    double u = 0, v = 0, depth = 0;
-    std::uint32_t query = 0;
-    std::uint32_t key = 0;  // Morton code of its place among those of the face
+    double u = 0, v = 0, per_depth = 0;
+    std::uint32_t number = 0, own = kNone;  // in asking_; ShadowQuery::own
+  };
+  // What the rays of a group, or of more, have in common.
+  struct Extent {
+    double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
+    double least_per_depth = low_u;
+
+    void grow(const Place& place);
+    void grow(const Extent& other);
+    double area() const { return (high_u - low_u) * (high_v - low_v); }
   };
 
-  void sort_face();
+  bool find_places(int face, bool all);
+  template <int kAxis>
+  bool find_places_along(int face, bool all);
+  double find_groups();
   void trace_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts);
-  void trace_places(int face, std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark,
-                    SignCounts& counts);
-  bool is_dark(std::uint32_t query, SignCounts& counts) const;
+  void sort_places();
+  void trace_groups(std::size_t first, std::size_t last, const Extent& extent,
+                    std::vector<std::uint8_t>& dark, SignCounts& counts);
+  const ShadowQuery& query(std::size_t number) const { return queries_[asking_[number]]; }
+  bool is_dark(std::size_t number, SignCounts& counts) const;
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
 
   const Prepared& prepared_;
@@ -47,9 +62,13 @@ class ShadowPackets {
   RayPacket packet_;
   const Light* light_ = nullptr;
   std::span<const ShadowQuery> queries_;
-  std::array<std::vector<Place>, 6> faces_;
-  std::vector<Place> sorted_, other_;
-  RayPacket::PerRay<std::uint32_t> query_;  // of the packet's rays
+  std::span<const std::uint32_t> asking_;
+  // Of one face, in the order of the queries and sorted.
+  std::vector<Place> places_, sorted_;
+  std::vector<std::uint32_t> keys_;
+  std::vector<Extent> groups_;
+  Extent whole_;                             // of all groups
+  RayPacket::PerRay<std::uint32_t> number_;  // of the packet's rays
 };
 
 }  // namespace sidelight::raytrace

@@ -81,6 +81,8 @@ bool Wave::take_part(std::size_t depth) {
 }
 
 void Wave::begin(const Rect& pixels) {
+  if (pixels.width() != pixels_.width() || pixels.height() != pixels_.height())
+    order_ = EyePackets::order(camera_.n * pixels.width(), camera_.n * pixels.height());
   pixels_ = pixels;
   if (levels_.empty()) levels_.resize(1);
   const auto size_if = [&](auto& array, bool wanted) {
@@ -193,7 +195,8 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     batch.has_t = !eye || primary_;
     batch.want_t = eye && !primary_ && (want_t_ || batch.want_leaving);
   }
-  for (std::size_t i = 0; i < level.hits.size(); ++i) {
+  for (std::size_t k = 0; k < level.hits.size(); ++k) {
+    const std::size_t i = eye ? order_[k] : k;
     const Hit& hit = level.hits[i];
     if (!hit.found()) continue;
     SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(primitive_ref(scene_, hit.primitive).kind)];

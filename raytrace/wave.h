@@ -86,9 +86,9 @@ class Wave {
   void find_leaving_points(const Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
                            RenderStats& stats) const;
   void add_lights(const Level& level, RenderStats& stats);
-  void find_shadows(const Level& level, std::size_t light, RenderStats& stats);
+  void find_shadows(std::size_t light, RenderStats& stats);
   ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
-  void add_light(std::size_t light);
+  void add_lights_of(HitBatch& batch) const;
   void sum_up(Level& level, bool eye);
   Surface surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray,
                      bool lone) const;
@@ -108,10 +108,13 @@ class Wave {
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;
+  std::vector<std::uint32_t>
+      order_;  // in which the eye's hits are gone through: block by block, as packets are
   EyePackets eye_packets_;
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
   ShadowPackets shadow_packets_;
-  std::vector<ShadowQuery> queries_;
+  std::vector<ShadowQuery> queries_;   // of entry i of batch b: [b kCapacity + i]
+  std::vector<std::uint32_t> asking_;  // those that ask a light
   std::vector<std::uint8_t> dark_;
   std::vector<Level> levels_;
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light of a level's hits: shadow rays light by light, and the sums.
+#include <bit>
+
 #include "raytrace/wave.h"
 
 namespace sidelight::raytrace {
@@ -10,15 +12,12 @@ glm::vec3 rgb(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 }  // namespace
 
 void Wave::add_lights(const Level& level, RenderStats& stats) {
-  for (std::size_t b = 0; b < used_; ++b) {
-    HitBatch& batch = batches_[b];
-    batch.light = batch.lit.ambient;
-    for (auto& channel : batch.missing) channel.fill(0);
-  }
-  for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) {
-    find_shadows(level, light, stats);
-    add_light(light);
-  }
+  queries_.resize(used_ * ShadingBatch::kCapacity);
+  for (std::size_t b = 0; b < used_; ++b)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
+      queries_[b * ShadingBatch::kCapacity + i] = shadow_query(level, batches_[b], i);
+  for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) find_shadows(light, stats);
+  for (std::size_t b = 0; b < used_; ++b) add_lights_of(batches_[b]);
 }
 
 ShadowQuery Wave::shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const {
@@ -31,48 +30,54 @@ ShadowQuery Wave::shadow_query(const Level& level, const HitBatch& batch, std::s
 }
 
 // Where a shadow ray is blocked, the light's state becomes that of a surface in its own light: b_i = 0.
-void Wave::find_shadows(const Level& level, std::size_t light, RenderStats& stats) {
+void Wave::find_shadows(std::size_t light, RenderStats& stats) {
   const Light& source = scene_.lights[light];
-  // What is asked, batch by batch; then the answers in the same order.
-  const auto for_each_asked = [&](const auto& visit) {
-    for (std::size_t b = 0; b < used_; ++b)
-      for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
-        if (batches_[b].lit.light[light].state[i] == LightTerms::kAsk) visit(batches_[b], i);
-  };
-  queries_.clear();
-  for (std::size_t b = 0; b < used_; ++b)
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
-      stats.self_shadowed += batches_[b].lit.light[light].state[i] == LightTerms::kSelfShadowed;
-  for_each_asked(
-      [&](const HitBatch& batch, std::size_t i) { queries_.push_back(shadow_query(level, batch, i)); });
-  stats.rays.shadow += queries_.size();
+  asking_.resize(queries_.size());
+  std::size_t asking = 0;
+  for (std::size_t b = 0; b < used_; ++b) {
+    const ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i) {
+      asking_[asking] = static_cast<std::uint32_t>(b * ShadingBatch::kCapacity + i);
+      asking += state[i] == LightTerms::kAsk;
+      stats.self_shadowed += state[i] == LightTerms::kSelfShadowed;
+    }
+  }
+  asking_.resize(asking);
+  stats.rays.shadow += asking;
   if (source.directional) {
     dark_.clear();
-    for (const ShadowQuery& query : queries_)
-      dark_.push_back(blocker(prepared_, ray_to_light(query.from, source), nullptr, stats.signs, kRayStart,
-                              Precision::exact, isa_)
+    for (const std::uint32_t hit : asking_)
+      dark_.push_back(blocker(prepared_, ray_to_light(queries_[hit].from, source), nullptr, stats.signs,
+                              kRayStart, Precision::exact, isa_)
                           .found());
   } else {
-    shadow_packets_.trace(source, queries_, dark_, stats.signs);
+    shadow_packets_.trace(source, queries_, asking_, dark_, stats.signs);
   }
-  std::size_t next = 0;
-  for_each_asked([&](HitBatch& batch, std::size_t i) {
-    if (dark_[next++] != 0) batch.lit.light[light].state[i] = LightTerms::kSelfShadowed;
-  });
+  for (std::size_t k = 0; k < asking; ++k)
+    if (dark_[k] != 0)
+      batches_[asking_[k] / ShadingBatch::kCapacity].lit.light[light].state[asking_[k] %
+                                                                            ShadingBatch::kCapacity] =
+          LightTerms::kSelfShadowed;
 }
 
-void Wave::add_light(std::size_t light) {
-  for (std::size_t b = 0; b < used_; ++b) {
-    HitBatch& batch = batches_[b];
-    const LightTerms& terms = batch.lit.light[light];
-    const auto size = static_cast<std::size_t>(batch.size);
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      for (std::size_t i = 0; i < size; ++i) {
-        const float total = terms.total[channel][i];
-        const bool seen = terms.state[i] != LightTerms::kSelfShadowed;
-        batch.light[channel][i] += seen ? total : 0.0f;
-        batch.missing[channel][i] += seen ? 0.0f : total;
-      }
+// Masks, and not branches that nobody could predict.
+void Wave::add_lights_of(HitBatch& batch) const {
+  const auto size = static_cast<std::size_t>(batch.size);
+  const auto where = [](std::uint32_t mask, float x) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & mask);
+  };
+  batch.light = batch.lit.ambient;
+  for (auto& channel : batch.missing) channel.fill(0);
+  for (const LightTerms& terms : batch.lit.light) {
+    std::array<std::uint32_t, ShadingBatch::kCapacity> seen;
+    for (std::size_t i = 0; i < size; ++i)
+      seen[i] = terms.state[i] == LightTerms::kSelfShadowed ? 0 : ~std::uint32_t{0};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const ShadingBatch::Channel& total = terms.total[channel];
+      for (std::size_t i = 0; i < size; ++i) batch.light[channel][i] += where(seen[i], total[i]);
+      if (!want_shadow_) continue;
+      for (std::size_t i = 0; i < size; ++i) batch.missing[channel][i] += where(~seen[i], total[i]);
+    }
   }
 }
 

@@ -33,6 +33,20 @@ template <class F>
   return lane_max<F>(a, -a);
 }
 
+// The whole number not below (above) each lane.
+template <class F>
+F lane_ceil(const F& a) {
+  using std::ceil;
+  using stdx::ceil;
+  return ceil(a);
+}
+template <class F>
+F lane_floor(const F& a) {
+  using std::floor;
+  using stdx::floor;
+  return floor(a);
+}
+
 // Of a mask of F's lanes: whether any holds, and how many do.
 template <class F>
 [[gnu::always_inline]] inline bool any(const Mask<F>& mask) {
@@ -68,6 +82,26 @@ template <class F>
     return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
 }
 
+// Writes the integers where the mask of F's lanes holds, one after the other, and returns how many; what follows them, up
+// to kLanes<F> in all, may be overwritten.
+template <class F>
+[[gnu::always_inline]] inline std::size_t store_some(const Mask<F>& mask, const Ints<F>& values,
+                                                     std::int32_t* to) {
+  std::uint32_t bits = mask_bits<F>(mask);
+  const auto count = static_cast<std::size_t>(std::popcount(bits));
+#ifdef __AVX512F__
+  if constexpr (sizeof(F) == 64) {
+    _mm512_storeu_si512(
+        to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), std::bit_cast<__m512i>(values)));
+    return count;
+  }
+#endif
+  alignas(64) std::int32_t lanes[kLanes<F>];
+  store(values, lanes);
+  for (; bits != 0; bits &= bits - 1) *to++ = lanes[std::countr_zero(bits)];
+  return count;
+}
+
 // A mask of F's lanes as one of the integers beside them.
 template <class F>
 Mask<Ints<F>> integer_mask(const Mask<F>& mask) {
@@ -98,11 +132,10 @@ std::uint64_t sum(const I& a) {
 // The least of all lanes.
 template <class F>
 Scalar<F> least(const F& a) {
-  alignas(64) Scalar<F> lanes[kLanes<F>];
-  store(a, lanes);
-  Scalar<F> result = lanes[0];
-  for (int lane = 1; lane < kLanes<F>; ++lane) result = lane_min(result, lanes[lane]);
-  return result;
+  if constexpr (kLanes<F> == 1)
+    return a;
+  else
+    return stdx::hmin(a);
 }
 
 // of(lane) in each lane.

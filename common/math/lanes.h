@@ -12,6 +12,9 @@
 #include <cmath>
 #include <cstdint>
 #include <experimental/simd>
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
 
 namespace sidelight {
 
@@ -69,6 +72,26 @@ F square_root(const F& x) {
   using std::sqrt;
   using stdx::sqrt;
   return sqrt(x);
+}
+
+// a b + c, rounded once where the lanes' instruction set can, else twice: for filters only, whose verdicts a bound
+// certifies either way.
+template <class F>
+[[gnu::always_inline]] inline F mul_add(const F& a, const F& b, const F& c) {
+#ifdef __FMA__
+  constexpr bool kSingle = sizeof(Scalar<F>) == 4;
+  if constexpr (sizeof(F) == 64 && kSingle)
+    return F(_mm512_fmadd_ps(std::bit_cast<__m512>(a), std::bit_cast<__m512>(b), std::bit_cast<__m512>(c)));
+  else if constexpr (sizeof(F) == 64)
+    return F(
+        _mm512_fmadd_pd(std::bit_cast<__m512d>(a), std::bit_cast<__m512d>(b), std::bit_cast<__m512d>(c)));
+  else if constexpr (sizeof(F) == 32 && kSingle)
+    return F(_mm256_fmadd_ps(std::bit_cast<__m256>(a), std::bit_cast<__m256>(b), std::bit_cast<__m256>(c)));
+  else if constexpr (sizeof(F) == 32)
+    return F(
+        _mm256_fmadd_pd(std::bit_cast<__m256d>(a), std::bit_cast<__m256d>(b), std::bit_cast<__m256d>(c)));
+#endif
+  return a * b + c;
 }
 
 // The bits of F as signed integers of its element's size, and back.
