@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rasterizer's kernels, each written once over lanes (project_lanes, setup_kernel.h, visible_kernel.h) and
+// The rasterizer's kernels, each written once over lanes (project_lanes, setup_kernel.h, visible_*.h) and
 // instantiated for each instruction set. Every set gives the same bits and counts.
 #pragma once
 

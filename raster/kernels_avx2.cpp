@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The rasterizer's kernels for eight lanes of floats (compiled with -mavx2).
 #include "raster/setup_kernel.h"
-#include "raster/visible_kernel.h"
+#include "raster/visible_large.h"
+#include "raster/visible_small.h"
 
 namespace sidelight::raster {
 

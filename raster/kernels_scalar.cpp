@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The rasterizer's kernels for one lane, and the oracle of the wide ones.
 #include "raster/setup_kernel.h"
-#include "raster/visible_kernel.h"
+#include "raster/visible_large.h"
+#include "raster/visible_small.h"
 
 namespace sidelight::raster {
 

@@ -41,11 +41,7 @@ int face_of(const glm::dvec3& p) {
 }  // namespace
 
 void ShadowPackets::Extent::grow(const Place& place) {
-  low_u = std::min(low_u, place.u);
-  high_u = std::max(high_u, place.u);
-  low_v = std::min(low_v, place.v);
-  high_v = std::max(high_v, place.v);
-  least_per_depth = std::min(least_per_depth, place.per_depth);
+  grow(Extent{place.u, place.u, place.v, place.v, place.per_depth});
 }
 
 void ShadowPackets::Extent::grow(const Extent& other) {

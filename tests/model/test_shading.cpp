@@ -153,7 +153,7 @@ TEST_CASE("a batch holds c1 times ambient light plus the light terms in the scen
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const auto& [point, material] = entries[i];
       const Vec3<float> ambient = point.ambient * tables.ambient_light;
-      Vec3<float> sum = ambient, diffuse, specular;
+      Vec3<float> sum = ambient, diffuse{}, specular{};
       for (const ShadingLight<float>& light : tables.lights) {
         const LightTerm<float> term = light_term<float>(point, light);
         sum = sum + (term.diffuse + term.specular);

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Large surfaces into a tile's z-buffer, block by block.
+#pragma once
+
+#include <limits>
+
+#include "raster/visible_keep.h"
+
+namespace sidelight::raster {
+
+// An affine function over a block of (columns + 1) x (rows + 1) samples, anchored in double at its first sample and
+// stepped in float from there.
+// Bound. With M = |value| + columns |x| + rows |y|, value, x and y are rounded to float, their products with whole
+// numbers once more, and two sums are made of them: at most 2^-24 (3|value| + 3 columns |x| + 4 rows |y|) <= 2^-22 M.
+// Twice that leaves room for low and high.
+struct Anchored {
+  float value, x, y;
+  float bound;      // on the error at any sample of the block
+  float low, high;  // bounds of the true values in the block
+};
+
+template <class F>
+Anchored anchored(const Affine& affine, double error, int X, int Y,
+                  float columns = TileView::kBlockColumns - 1, float rows = TileView::kBlockRows - 1) {
+  Anchored a;
+  a.value = static_cast<float>(affine.at(X, Y));
+  a.x = static_cast<float>(affine.x);
+  a.y = static_cast<float>(affine.y);
+  const float dx = columns * a.x, dy = rows * a.y;
+  a.bound =
+      0x1p-21f * ((lane_abs(a.value) + lane_abs(dx)) + lane_abs(dy)) + 1.0001f * static_cast<float>(error);
+  a.low = a.value + (lane_min(dx, 0.0f) + lane_min(dy, 0.0f)) - a.bound;
+  a.high = a.value + (lane_max(dx, 0.0f) + lane_max(dy, 0.0f)) + a.bound;
+  return a;
+}
+
+template <class F>
+bool has_sure_depth(const LargeSurface& surface, const Anchored& w) {
+  return surface.depth.sure && lane_abs(w.high) < 1e30f && lane_abs(w.low) < 1e30f;
+}
+template <class F>
+bool surely_behind(const LargeSurface& surface, const Anchored& w, float farthest) {
+  return has_sure_depth<F>(surface, w) && w.high * kSurely < farthest;
+}
+
+// The block whose first sample is (X0, Y0).
+template <class F>
+void draw_block(const TileView& tile, const LargeSurface& surface, int X0, int Y0, float& farthest) {
+  constexpr int kColumns = TileView::kBlockColumns;
+  const Anchored w = anchored<F>(surface.depth.w, surface.depth.error, X0, Y0);
+  if (surely_behind<F>(surface, w, farthest)) return;  // hidden: all samples hold something nearer
+  const bool sure = has_sure_depth<F>(surface, w);
+
+  // Edges that the whole block is inside of need no test; one that it is outside of needs no block.
+  std::array<Anchored, 3> edge;
+  int edges = 0;
+  if (surface.bounded)
+    for (const EdgeSheet& each : surface.edge) {
+      edge[static_cast<std::size_t>(edges)] = anchored<F>(each.value, each.error, X0, Y0);
+      const Anchored& e = edge[static_cast<std::size_t>(edges)];
+      if (e.high < 0) return;
+      edges += !(e.low > 0);
+    }
+
+  // Below `floor` w is not within kFloatDepthError of itself.
+  const float floor = sure ? w.bound * (1 / kFloatDepthError) : std::numeric_limits<float>::infinity();
+  const int x1 = std::min(surface.box.x1, tile.box.x1) - X0,
+            y1 = std::min({surface.box.y1, tile.box.y1, Y0 + 8}) - Y0;
+  F least_held(std::numeric_limits<float>::infinity());
+  for (int j = std::max(surface.box.y0 - Y0, 0); j < y1; ++j)
+    for (int i = 0; i < std::min(x1, kColumns); i += kLanes<F>) {
+      const F column = lane_numbers<F>() + F(static_cast<float>(i));
+      const auto value = [&](const Anchored& a) {
+        return F(a.value + static_cast<float>(j) * a.y) + column * F(a.x);
+      };
+      Mask<F> covered =
+          column < F(static_cast<float>(x1)) && column >= F(static_cast<float>(surface.box.x0 - X0));
+      const Mask<F> in_box = covered;
+      Mask<F> doubtful = covered;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(edges); ++k) {
+        const F e = value(edge[k]);
+        covered = covered && e > F(edge[k].bound);
+        doubtful = doubtful && e >= F(-edge[k].bound);
+      }
+      doubtful = doubtful && !covered;
+      const F depth = value(w);
+      if (!surface.bounded) {
+        // A plane is met where w > 0, surely or not.
+        doubtful = covered && lane_abs(depth) <= F(w.bound);
+        if (!sure) doubtful = covered;
+        covered = covered && !doubtful && depth > F(0);
+      }
+      const int index = tile.index(X0 + i, Y0 + j);
+      F held;
+      const Mask<F> sure_depth = depth > F(floor);
+      const Mask<F> tied = keep_nearer<F>(tile, index, surface.primitive, covered, sure_depth, depth, held);
+      tile.counts.fragments += static_cast<std::uint64_t>(count<F>(covered));
+      if (any<F>(tied || doubtful)) {
+        order_lanes_exactly<F>(tile, surface.primitive, X0 + i, Y0 + j, tied, depth, sure_depth);
+        for_each_lane<F>(doubtful, X0 + i, Y0 + j, [&](int X, int Y) {
+          draw_exactly(tile, surface.primitive, X, Y, surface.bounded ? 3 : 0);
+        });
+      }
+      least_held = lane_min(least_held, select<F>(in_box, held, F(std::numeric_limits<float>::infinity())));
+    }
+  if (edges > 0) return;
+  farthest = least<F>(least_held);
+}
+
+template <class F>
+[[gnu::flatten]] void draw_large_surface(const TileView& tile, const LargeSurface& surface) {
+  const int x0 = std::max(surface.box.x0, tile.box.x0), x1 = std::min(surface.box.x1, tile.box.x1);
+  const int y0 = std::max(surface.box.y0, tile.box.y0), y1 = std::min(surface.box.y1, tile.box.y1);
+  if (x0 >= x1) return;
+  const auto for_each_block = [&](const auto& visit) {
+    for (int row = (y0 - tile.box.y0) / TileView::kBlockRows; tile.box.y0 + row * TileView::kBlockRows < y1;
+         ++row)
+      for (int column = (x0 - tile.box.x0) / TileView::kBlockColumns;
+           tile.box.x0 + column * TileView::kBlockColumns < x1; ++column)
+        visit(tile.box.x0 + column * TileView::kBlockColumns, tile.box.y0 + row * TileView::kBlockRows,
+              tile.farthest[row * tile.block_columns + column]);
+  };
+  // Layers behind a wall are dropped a whole tile at a time.
+  float farthest = std::numeric_limits<float>::infinity();
+  for_each_block([&](int, int, float of_block) { farthest = lane_min(farthest, of_block); });
+  if (farthest > 0) {
+    const Anchored w = anchored<F>(surface.depth.w, surface.depth.error, x0, y0,
+                                   static_cast<float>(x1 - 1 - x0), static_cast<float>(y1 - 1 - y0));
+    if (surely_behind<F>(surface, w, farthest)) return;
+  }
+  for_each_block([&](int X, int Y, float& of_block) { draw_block<F>(tile, surface, X, Y, of_block); });
+}
+
+}  // namespace sidelight::raster
