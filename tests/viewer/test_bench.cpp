@@ -113,9 +113,9 @@ TEST_CASE("bench: without times equal runs give equal bytes, from the cache or n
 TEST_CASE("bench: interrupted, it keeps and marks what was finished") {
   const Workplace here;
   const auto interrupted_after = [&](int seconds) {
-    Process process(
-        {SIDELIGHT_BINARY, "bench", "good.toml", "-r", "16x12", "--runs", "100000", "-q", "-o", "out"},
-        here / ".");
+    Process process({SIDELIGHT_BINARY, "bench", "good.toml", "-r", "16x12", "--set", "samples=1,4", "--runs",
+                     "100000", "-q", "-o", "out"},
+                    here / ".");
     process.await_handler(SIGINT);
     std::this_thread::sleep_for(std::chrono::seconds(seconds));
     process.send(SIGINT);
