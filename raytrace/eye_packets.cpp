@@ -9,8 +9,6 @@
 namespace sidelight::raytrace {
 namespace {
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 constexpr int kEdge = 16, kBlock = 4;  // of a packet and of its groups, in samples
 
 // visit(column, row) of a packet's samples, block by block, so that a group's rays are close to each other.
@@ -24,13 +22,6 @@ void for_each_sample(int columns, int rows, const Visit& visit) {
 
 }  // namespace
 
-double reach_of(const Prepared& prepared, const glm::dvec3& origin) {
-  double reach = std::max({prepared.triangles.bvh.reach, prepared.spheres.bvh.reach, largest(origin)});
-  for (const std::uint32_t plane : prepared.planes)
-    reach = std::max(reach, largest(prepared.scene.planes[primitive_ref(prepared.scene, plane).index].point));
-  return reach;
-}
-
 EyePackets::EyePackets(const Prepared& prepared, const Camera& camera, Isa isa)
     : prepared_(prepared), camera_(camera), isa_(isa) {
   const RaySheet sheet = lattice_sheet(camera);
@@ -38,7 +29,7 @@ EyePackets::EyePackets(const Prepared& prepared, const Camera& camera, Isa isa)
   packet_.U = sheet.U;
   packet_.V = sheet.V;
   packet_.length = sheet.size.x + sheet.size.y + sheet.size.z;
-  packet_.reach = reach_of(prepared, camera.eye);
+  packet_.reach = prepared.reach_from(camera.eye);
   // place.h: what is near lies within 10 (step + 32 u reach) of the place, up to 16 reach away: below 2^-40 reach.
   packet_.near_error = 0x1p-39;
   packet_.lattice = true;

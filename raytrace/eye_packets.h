@@ -10,9 +10,6 @@
 
 namespace sidelight::raytrace {
 
-// Greatest coordinate of all that can be met, and of `origin`.
-double reach_of(const Prepared& prepared, const glm::dvec3& origin);
-
 class EyePackets {
  public:
   EyePackets(const Prepared& prepared, const Camera& camera, Isa isa);

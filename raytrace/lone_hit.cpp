@@ -12,8 +12,6 @@ namespace {
 // Of the cosine between a ray and the normal.
 constexpr double kLeastCosine = 0x1p-10;
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 // Within what distance of o + t d, along each axis, nothing else may be. With R the greatest coordinate and s = t |d|:
 //   depths are off by 2^-18 (visibility.h), that of this hit and those of others:      2^-17 s
 //   and roots of a sphere that is grazed by the square root of their rounding:         8 sqrt(u) R < 2^-23 R
@@ -75,7 +73,7 @@ Lone lone_hit(const Prepared& prepared, const Ray& ray, const Hit& hit, Isa isa)
   const PrimitiveRef ref = primitive_ref(prepared.scene, hit.primitive);
   const glm::dvec3 point = ray.origin + hit.t * ray.direction;
   const double length = glm::length(ray.direction);
-  const double room = room_for(std::max(prepared.reach, largest(ray.origin)), hit.t * length);
+  const double room = room_for(prepared.reach_from(ray.origin), hit.t * length);
   const glm::dvec3 outward = outward_at(prepared.scene, ref, point, room);
   const double along = glm::dot(ray.direction, outward);
   if (!(std::abs(along) > 2 * kLeastCosine * length * glm::length(outward))) return Lone::unknown;

@@ -6,14 +6,15 @@
 
 namespace sidelight::raytrace {
 
-// A sphere of radius r with f = o - c, in units of r and of L >= |d|: g = (d x f) / (r L) is affine in (u, v), and |g| r is
-// how far the ray passes from the center, times |d| / L. So it is met where D = |d / L|² - |g|² >= 0, and with q = f² - r²
-// 1/t = (-f . d +- r L sqrt D) / q, + from outside, - from within. Small where it matters, so that it holds in float.
+// A sphere of radius r with f = o - c, in units of r and of L >= |d|: g = (d x f) / (r L) is affine in (u, v), and |g| r
+// is how far the ray passes from the center, times |d| / L. So it is met where D = |d / L|² - |g|² >= 0, and with
+// q = f² - r² 1/t = (-f . d +- r L sqrt D) / q, + from outside, - from within. Small where it matters, so that it holds in
+// float.
 //
 // Bounds: g is off by `off`: 2^-22 of its terms, for float; 2^-49 |f| / r, for its coefficients; what the error of (u, v)
-// makes; and, for what is only near, 2 near_error reach / r. Then D by 2 off + off² where |g| <= 1, by 2^-21 for float, and by
-// 2^-46 ((|f| + r + distance) / r)² in visibility.h; and its root by that over itself. Depths are told for an origin well
-// off the surface.
+// makes; and, for what is only near, 2 near_error reach / r. Then D by 2 off + off² where |g| <= 1, by 2^-21 for float, and
+// by 2^-46 ((|f| + r + distance) / r)² in visibility.h; and its root by that over itself. Depths are told for an origin
+// well off the surface.
 struct SphereSetup {
   std::array<float, 3> gx, gy, gc;  // g = gx u + gy v + gc
   float doubt;                      // of D

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "common/math/max_norm.h"
 #include "common/model/place.h"
 #include "common/model/shading.h"
 #include "common/model/visibility.h"
@@ -30,6 +31,9 @@ class Prepared {
   std::vector<Bounds> bounds;          // of each solid
   std::vector<std::uint8_t> secluded;  // of each sphere: whether it is a solid and is_secluded()
   double reach = 0;  // greatest coordinate of all that can be met; of planes, of their points
+
+  // The same, and of `origin`.
+  double reach_from(const glm::dvec3& origin) const { return std::max(reach, max_norm(origin)); }
 
   template <class Real>
   const ShadingTablesOf<Real>& tables_in() const {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "raytrace/eye_packets.h"
+#include "common/math/max_norm.h"
 #include "raytrace/secondary.h"
 
 namespace sidelight::raytrace {
@@ -30,7 +30,6 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | x << 1) & 0x5555;
 }
 
-double depth_on_cube(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 // Of the cube around the light: +x, -x, +y, ...
 int face_of(const glm::dvec3& p) {
   const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
@@ -69,7 +68,7 @@ void ShadowPackets::trace(const Light& light, std::span<const ShadowQuery> queri
   asking_ = asking;
   dark.assign(asking.size(), 0);
   packet_.origin = light.position;
-  packet_.reach = reach_of(prepared_, light.position);
+  packet_.reach = prepared_.reach_from(light.position);
   if (asking.empty()) return;
   // Most often one face will do, though some of the places lie beyond its edges.
   const int first = face_of(query(0).from - light.position);
@@ -79,7 +78,7 @@ void ShadowPackets::trace(const Light& light, std::span<const ShadowQuery> queri
     trace_face(face, dark, counts);
   }
   for (std::size_t i = 0; i < asking.size(); ++i)
-    if (depth_on_cube(query(i).from - light.position) < kLeastDepth) dark[i] = is_dark(i, counts);
+    if (max_norm(query(i).from - light.position) < kLeastDepth) dark[i] = is_dark(i, counts);
 }
 
 // Of all queries, false if some cannot be seen through this face; or of those whose face it is.

@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 
 #include "common/model/visibility_float.h"
-#include "raytrace/eye_packets.h"
 #include "raytrace/kernels.h"
 #include "raytrace/lone_hit.h"
 
@@ -79,7 +78,8 @@ Prepared::Prepared(const Scene& s, const Needs& n, int threads)
     all_cast_shadows = all_cast_shadows && material.casts_shadow;
   for (const Object& object : scene.objects)
     if (object.kind == ObjectKind::plane) planes.push_back(object.first_primitive);
-  reach = reach_of(*this, glm::dvec3(0));
+  reach = std::max(triangles.bvh.reach, spheres.bvh.reach);
+  for (const Plane& plane : scene.planes) reach = reach_from(plane.point);
   secluded.resize(scene.spheres.size());
   if (!scene.trace.refraction || !needs[Need::refraction]) return;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)

@@ -108,8 +108,7 @@ class Wave {
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;
-  std::vector<std::uint32_t>
-      order_;  // in which the eye's hits are gone through: block by block, as packets are
+  std::vector<std::uint32_t> order_;  // of the eye's hits: block by block, as packets are
   EyePackets eye_packets_;
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
   ShadowPackets shadow_packets_;

@@ -81,7 +81,7 @@ F lane_exp(const F& x) {
   using Bits = decltype(to_bits(x));
   const F power =
       from_bits<F>((to_bits<F>(rounded) << S::kMantissaBits) + (Bits(S::kBias) << S::kMantissaBits));
-  // Of the sums only the last two round by more than 1/8 ulp of the result: by 1/4 and 1/2.
+  // Roundings, in ulp of the result: 1/4 in r, 1/4 and 1/2 in the last two sums, below 1/8 in all others together.
   const F exp_r = F(1) + (r + r * r * polynomial<F>(r, kSeries));
   return select<F>(underflow, F(0), exp_r * power);
 }

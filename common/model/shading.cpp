@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/max_norm.h"
 #include "common/model/shading_kernel.h"
 
 namespace sidelight {
@@ -14,15 +15,13 @@ Vec3<T> rounded(const glm::dvec3& v) {
   return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
 }
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 // The greatest coordinate anything in the scene has, near enough; 0 for an empty one.
 double extent(const Scene& scene) {
-  double most = largest(scene.camera.eye);
-  for (const glm::dvec3& p : scene.positions) most = std::max(most, largest(p));
-  for (const Sphere& s : scene.spheres) most = std::max(most, largest(s.center) + s.radius);
-  for (const Plane& p : scene.planes) most = std::max(most, largest(p.point));
-  for (const Light& l : scene.lights) most = std::max(most, largest(l.position));
+  double most = max_norm(scene.camera.eye);
+  for (const glm::dvec3& p : scene.positions) most = std::max(most, max_norm(p));
+  for (const Sphere& s : scene.spheres) most = std::max(most, max_norm(s.center) + s.radius);
+  for (const Plane& p : scene.planes) most = std::max(most, max_norm(p.point));
+  for (const Light& l : scene.lights) most = std::max(most, max_norm(l.position));
   return most;
 }
 

@@ -6,15 +6,14 @@
 #include <glm/geometric.hpp>
 
 #include "common/float_state.h"
+#include "common/math/max_norm.h"
 
 namespace sidelight {
 namespace {
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 // Unit length for any finite non-zero vector: scaled by its largest component first, so that no square overflows.
 glm::dvec3 unit(const glm::dvec3& v) {
-  const glm::dvec3 scaled = v / largest(v);
+  const glm::dvec3 scaled = v / max_norm(v);
   return scaled / std::sqrt(glm::dot(scaled, scaled));
 }
 
@@ -43,13 +42,13 @@ Camera make_camera(const CameraSettings& settings, int width, int height, int n)
 
   // Nearer to parallel than this, rounding alone would choose the picture's roll.
   constexpr double kParallel = 1e-14;
-  const bool has_up = largest(settings.up) > 0;
+  const bool has_up = max_norm(settings.up) > 0;
   glm::dvec3 across = has_up ? glm::cross(forward, unit(settings.up)) : glm::dvec3(0);
-  if (largest(across) < kParallel) across = glm::cross(forward, substitute_up(forward));
+  if (max_norm(across) < kParallel) across = glm::cross(forward, substitute_up(forward));
   // Orthogonal to forward again: where up is nearly parallel, the cross product alone is not.
   across = unit(across);
   const glm::dvec3 right = unit(across - glm::dot(across, forward) * forward);
-  const glm::dvec3 up = unit(glm::cross(right, forward));   // of length 1 but for the rounding of both
+  const glm::dvec3 up = unit(glm::cross(right, forward));  // of length 1 but for the rounding of both
 
   Camera camera;
   camera.eye = settings.eye;
