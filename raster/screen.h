@@ -93,8 +93,8 @@ void put_records(const I& x, const I& y, const W& w, const I& state, ScreenVerte
 
 // Derivation. X = (scale a.r / a.f + columns - 1) / 2 in exact arithmetic. With q = |a|_1 / a.f the dot products are
 // off by at most 4u |a||r| and 4u |a|, so scale a.r / a.f by 8u q² lens; that a, r, u, f and the sample's own ray are
-// rounded adds 8u q lens, that r, u and f are orthogonal only up to rounding 8u q lens, the quotient by way of 1/(a.f) 2u and the
-// sums 4u (columns + rows).
+// rounded adds 8u q lens, that r, u and f are orthogonal only up to rounding 8u q lens, the quotient by way of 1/(a.f) 2u
+// and the sums 4u (columns + rows).
 // 2^-47 = 64u times (q² lens + columns + rows) is more than all. Placed is what this leaves within a quarter of a unit;
 // rounding to a whole number of units adds a half.
 template <class D>

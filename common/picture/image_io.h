@@ -41,7 +41,7 @@ struct ImageFile {
   int width = 0, height = 0;  // of the data window
   int x0 = 0, y0 = 0;         // its place in the display window
   int full_width = 0, full_height = 0;
-  bool png = false;           // integers, so clamped to [0, 1]; else OpenEXR
+  bool png = false;                                       // integers, so clamped to [0, 1]; else OpenEXR
   std::map<std::string, std::vector<float>> channels;     // "R", "G", "B", "depth.Z", ...
   std::map<std::string, std::vector<std::uint32_t>> ids;  // "object.id", "primitive.id"
   std::map<std::string, std::string> metadata;            // those of sidelight, without the prefix

@@ -134,7 +134,7 @@ int run_compare(const CompareFlags& flags) {
   const Renderer& raytrace = with_primary(job, *find_renderer("raytrace"));
   job.options.layers = raytrace.layers;
   job.options.keep_samples = true;
-  check_memory(job, job.options.faults.any() ? kSpoiledPairs : 1);
+  check_memory(job, job.options.faults.any() ? kSpoiledPairs : job.flags.from_raster() ? 2 : 1);
   make_folder(flags.folder);
 
   const TimedFrame rastered = render_all_layers(job, raster);

@@ -55,7 +55,7 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
   frame["runs"] = frame_ms.size();
   nlohmann::ordered_json json{
       {"renderer", renderer.name},
-      {"primary", renderer.name.substr(0, 6) == "raster" ? "raster" : job.flags.primary},
+      {"primary", renderer.name.starts_with("raster") ? "raster" : job.flags.primary},
       {"scene", printable(job.flags.scene, 1000)},
       {"scene_hash", job.scene.hash},
       {"version", SIDELIGHT_VERSION},
@@ -98,7 +98,7 @@ int run_render(const RenderFlags& flags) {
   const Renderer* renderer = &with_primary(job, *find_renderer(flags.renderer));
   check_makes_faults(renderer->name, job.options.faults);
   job.options.layers = parse_layers(flags, *renderer);
-  check_memory(job);
+  check_memory(job, job.flags.from_raster() ? 2 : 1);
 
   ProgressBar bar(std::string(renderer->label), flags.job.quiet);
   job.options.progress = bar.callback();
