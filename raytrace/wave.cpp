@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "common/picture/tile_pixels.h"
+#include "common/scene/primitive_finder.h"
 
 namespace sidelight::raytrace {
 
@@ -81,8 +82,12 @@ bool Wave::take_part(std::size_t depth) {
 }
 
 void Wave::begin(const Rect& pixels) {
-  if (pixels.width() != pixels_.width() || pixels.height() != pixels_.height())
-    order_ = EyePackets::order(camera_.n * pixels.width(), camera_.n * pixels.height());
+  if (pixels.width() != pixels_.width() || pixels.height() != pixels_.height()) {
+    const auto width = static_cast<std::uint32_t>(camera_.n * pixels.width());
+    order_.clear();
+    for (const std::uint32_t i : EyePackets::order(camera_.n * pixels.width(), camera_.n * pixels.height()))
+      order_.push_back({i, static_cast<std::uint16_t>(i % width), static_cast<std::uint16_t>(i / width)});
+  }
   pixels_ = pixels;
   if (levels_.empty()) levels_.resize(1);
   const auto size_if = [&](auto& array, bool wanted) {
@@ -195,24 +200,27 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     batch.has_t = !eye || primary_;
     batch.want_t = eye && !primary_ && (want_t_ || batch.want_leaving);
   }
+  // Steps of column and row are whole numbers, exact.
+  const double first_column = camera_.column_factor(camera_.n * pixels_.x0);
+  const double first_row = camera_.row_factor(camera_.n * pixels_.y0);
+  PrimitiveFinder find(scene_);
   for (std::size_t k = 0; k < level.hits.size(); ++k) {
-    const std::size_t i = eye ? order_[k] : k;
+    const std::size_t i = eye ? order_[k].number : k;
     const Hit& hit = level.hits[i];
     if (!hit.found()) continue;
-    SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(primitive_ref(scene_, hit.primitive).kind)];
+    SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(find(hit.primitive).kind)];
     const auto entry = static_cast<std::size_t>(batch.size);
     batch.t[entry] = hit.t;
+    batch.primitive[entry] = hit.primitive;
     batch.sample[entry] = static_cast<std::uint32_t>(i);
     if (eye) {
-      const auto X = camera_.n * pixels_.x0 + static_cast<int>(i % columns());
-      const auto Y = camera_.n * pixels_.y0 + static_cast<int>(i / columns());
-      batch.add(camera_.column_factor(X), camera_.row_factor(Y), &hit.primitive, 1);
+      batch.column[entry] = first_column + 2 * order_[k].column;
+      batch.row[entry] = first_row - 2 * order_[k].row;
     } else {
-      const Ray& ray = level.rays[i].path.ray;
-      put(batch.origin, entry, ray.origin);
-      put(batch.direction, entry, ray.direction);
-      batch.add(0, 0, &hit.primitive, 1);
+      put(batch.origin, entry, level.rays[i].path.ray.origin);
+      put(batch.direction, entry, level.rays[i].path.ray.direction);
     }
+    ++batch.size;
     if (batch.room() == 0) flush(level, batch, eye, stats);
   }
   for (SurfaceBatch& batch : surfaces_) flush(level, batch, eye, stats);

@@ -108,7 +108,12 @@ class Wave {
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;
-  std::vector<std::uint32_t> order_;  // of the eye's hits: block by block, as packets are
+  // Of the eye's hits, block by block, as packets are; the sample's column and row in the tile.
+  struct EyeSample {
+    std::uint32_t number = 0;
+    std::uint16_t column = 0, row = 0;
+  };
+  std::vector<EyeSample> order_;
   EyePackets eye_packets_;
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
   ShadowPackets shadow_packets_;
