@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "common/model/visibility_float.h"
+#include "raytrace/enclosed.h"
 #include "raytrace/kernels.h"
 #include "raytrace/lone_hit.h"
 
@@ -86,6 +87,7 @@ Prepared::Prepared(const Scene& s, const Needs& n, int threads)
     if (scene.objects[i].solid) {
       solids.push_back(i);
       bounds.push_back(bounds_of(scene, scene.objects[i]));
+      shuts_in.push_back(raytrace::shuts_in(scene, scene.objects[i]));
     }
   for (const std::uint32_t solid : solids)
     if (const Object& object = scene.objects[solid]; object.kind == ObjectKind::sphere)

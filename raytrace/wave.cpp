@@ -23,7 +23,8 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
       want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples),
       eye_packets_(prepared, camera, options.isa),
-      shadow_packets_(prepared, options.isa) {
+      shadow_packets_(prepared, options.isa),
+      enclosures_(prepared) {
   farthest_alone_ = 16 * eye_packets_.reach() / eye_packets_.ray_length();
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
     surfaces_[static_cast<std::size_t>(kind)].kind = kind;
@@ -260,13 +261,15 @@ void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces,
     place.facing = get(surfaces.facing, i);
     place.clearance = surfaces.clearance[i];
     const Hit& hit = level.hits[batch.ray[i]];
-    if (!level.alone.empty() && level.alone[batch.ray[i]] && (!eye || hit.t < farthest_alone_)) {
-      put(batch.from, i, place.point + place.clearance * place.facing);  // leaving_point() of nothing near
-      continue;
-    }
+    const glm::dvec3 above = place.point + place.clearance * place.facing;  // leaving_point() of nothing near
+    batch.plain[i] = true;
+    put(batch.from, i, above);
+    if (!level.alone.empty() && level.alone[batch.ray[i]] && (!eye || hit.t < farthest_alone_)) continue;
     const Ray ray = ray_of(level, batch.ray[i]);
     place.together = together_depth(ray, hit, place);
-    put(batch.from, i, leaving_point(prepared_, ray, hit, place, stats.signs, isa_));
+    const glm::dvec3 from = leaving_point(prepared_, ray, hit, place, stats.signs, isa_);
+    batch.plain[i] = from == above;
+    put(batch.from, i, from);
   }
 }
 

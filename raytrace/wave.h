@@ -11,6 +11,7 @@
 
 #include "common/model/surface_batch.h"
 #include "common/picture/frame.h"
+#include "raytrace/enclosed.h"
 #include "raytrace/eye_packets.h"
 #include "raytrace/lone_hit.h"
 #include "raytrace/secondary.h"
@@ -25,6 +26,7 @@ struct HitBatch {
   SurfaceBatch::Channel<std::uint32_t> ray, material;  // the ray's number in its level
   SurfaceBatch::Vectors from, normal, facing;          // leaving_point, N and Nv, where rays leave
   SurfaceBatch::Channel<double> clearance;             // Place::clearance, likewise
+  SurfaceBatch::Channel<std::uint8_t> plain;  // rays leave straight above the point: no wall is in the way
   LitBatch lit;
   ShadingBatch::Rgb light{}, missing{};  // sums of T_i, c1 left out: of lights that are seen, that are not
 };
@@ -88,6 +90,7 @@ class Wave {
   void add_lights(const Level& level, RenderStats& stats);
   void find_shadows(std::size_t light, RenderStats& stats);
   ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
+  std::size_t enclosing_solid(const Level& level, const HitBatch& batch, std::size_t i) const;
   void add_lights_of(HitBatch& batch) const;
   void sum_up(Level& level, bool eye);
   Surface surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray,
@@ -112,8 +115,10 @@ class Wave {
   EyePackets eye_packets_;
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
   ShadowPackets shadow_packets_;
-  std::vector<ShadowQuery> queries_;   // of entry i of batch b: [b kCapacity + i]
-  std::vector<std::uint32_t> asking_;  // those that ask a light
+  Enclosures enclosures_;
+  std::vector<ShadowQuery> queries_;    // of entry i of batch b: [b kCapacity + i]
+  std::vector<std::size_t> enclosing_;  // likewise: the solid around it, or Enclosures::kNone
+  std::vector<std::uint32_t> asking_;   // those that ask a light
   std::vector<std::uint8_t> dark_;
   std::vector<Level> levels_;
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind

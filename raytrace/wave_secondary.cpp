@@ -75,6 +75,9 @@ void Wave::send_from(Level& level, const HitBatch& batch, std::size_t i, const P
   const Path& refracted = leaving.refracted.path;
   const bool passes =
       lone && refracted.kind == RayKind::refracted && is_steep(refracted.ray.direction, surface.facing);
+  const bool in_the_open = path.media.current() == kNone && batch.plain[i] != 0;
+  if (!lone && (scene_.objects[surface.object].solid || !in_the_open)) leaving.mirrored.path.media.doubt();
+  if (!passes) leaving.refracted.path.media.doubt();
   const bool stays_inside = batch.kind == ObjectKind::sphere && !surface.entering;
   follow(leaving.mirrored, stays_inside ? hit.primitive : kNone, false);
   follow(leaving.refracted, passes ? hit.primitive : kNone, passes);
