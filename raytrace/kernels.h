@@ -27,6 +27,14 @@ struct NearQuestion {
   const bool* enough = nullptr;  // where there is one, nothing more is asked once it is true
 };
 
+// How far from its edges is a triangle free of others? At points with barycentric weights of at least the answer, or more,
+// no triangle but `except` is within `room`, along each axis; 1: nowhere.
+struct InsetQuestion {
+  Corners corners;
+  double room;
+  std::uint32_t except;
+};
+
 // Rays are finite; planes are left to the caller.
 struct Kernels {
   // Replaces `best` by what is nearer, of that which comes after `after` and is not `except`.
@@ -41,6 +49,7 @@ struct Kernels {
   std::uint64_t (*visit_leaves)(const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
   void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
   void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);
+  double (*inset)(const TriangleLeaves& leaves, const InsetQuestion& question);
 };
 
 const Kernels& kernels_scalar();

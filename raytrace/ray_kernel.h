@@ -128,7 +128,8 @@ template <class F, class D>
 template <class F, class D, int kRows>
 [[gnu::always_inline]] inline void ask_leaves_near(const Leaves<kRows>& leaves,
                                                    const NearQuestion& question) {
-  walk_near<F>(leaves.bvh, question.point, question.distance, [&](std::uint32_t first, std::uint32_t count) {
+  const glm::dvec3 low = question.point - question.distance, high = question.point + question.distance;
+  walk_near<F>(leaves.bvh, low, high, [&](std::uint32_t first, std::uint32_t count) {
     const std::uint32_t* items = leaves.bvh.items.data() + first;
     std::uint32_t others = 0, bits = 0;
     for (std::uint32_t i = 0; i < count; ++i) others |= std::uint32_t{items[i] != question.except} << i;
@@ -154,8 +155,25 @@ template <class F, class D>
 }
 
 template <class F, class D>
+[[gnu::flatten]] double inset_in_lanes(const TriangleLeaves& leaves, const InsetQuestion& question) {
+  const InsetFilter<D> filter(question.corners, question.room);
+  double inset = 0;
+  walk_near<F>(leaves.bvh, filter.low(), filter.high(), [&](std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>) {
+      alignas(64) std::array<double, kLanes<D>> beside;
+      store<D>(filter(leaves.leaf(first) + lane, count), beside.data());
+      for (std::uint32_t i = lane; i < std::min<std::uint32_t>(count, lane + kLanes<D>); ++i)
+        if (leaves.bvh.items[first + i] != question.except) inset = lane_max(inset, beside[i - lane]);
+    }
+    return inset < 1;
+  });
+  return inset;
+}
+
+template <class F, class D>
 inline constexpr Kernels kKernels{nearest_in_lanes<F, D>,        blocker_in_lanes<F, D>,
                                   candidates_in_lanes<F, D>,     visit_leaves_in_lanes<F, D>,
-                                  near_triangles_in_lanes<F, D>, near_spheres_in_lanes<F, D>};
+                                  near_triangles_in_lanes<F, D>, near_spheres_in_lanes<F, D>,
+                                  inset_in_lanes<F, D>};
 
 }  // namespace sidelight::raytrace

@@ -24,7 +24,8 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples),
       eye_packets_(prepared, camera, options.isa),
       shadow_packets_(prepared, options.isa),
-      enclosures_(prepared) {
+      enclosures_(prepared),
+      clearings_(prepared, options.isa) {
   farthest_alone_ = 16 * eye_packets_.reach() / eye_packets_.ray_length();
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
     surfaces_[static_cast<std::size_t>(kind)].kind = kind;
@@ -162,7 +163,7 @@ Hit Wave::first_hit(const WaveRay& ray, RenderStats& stats) const {
 }
 
 // The first hit of a secondary ray that is not just a surface inside of a medium that goes on behind it.
-Hit Wave::first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) const {
+Hit Wave::first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) {
   Path& path = ray.path;
   for (Hit hit = first_hit(ray, stats);;
        hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
@@ -170,7 +171,7 @@ Hit Wave::first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) co
     if (!hit.found() || prepared_.solids.empty()) return hit;
     const std::uint32_t object = scene_.primitive_object[hit.primitive];
     if (!scene_.objects[object].solid) return hit;
-    const Lone lone = lone_hit(prepared_, path.ray, hit, isa_);
+    const Lone lone = lone_hit(prepared_, path.ray, hit, isa_, &clearings_);
     alone = lone != Lone::unknown;
     const Media behind =
         alone ? media_behind_lone(prepared_, object, lone == Lone::entering, path.media)
@@ -249,22 +250,33 @@ void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& st
   surfaces.size = 0;
 }
 
-void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
-                               RenderStats& stats) const {
+// Whether there is nothing to search for near the hit.
+bool Wave::stands_alone(Level& level, std::size_t ray, ObjectKind kind) {
+  if (level.rays.empty())
+    return !level.alone.empty() && level.alone[ray] && level.hits[ray].t < farthest_alone_;
+  if (level.alone[ray] || kind != ObjectKind::mesh) return level.alone[ray];
+  const Hit& hit = level.hits[ray];
+  const bool clear = is_clear(prepared_, level.rays[ray].path.ray, hit, clearings_);
+  // On a solid the ray grazes, or lone_hit() would have said so: no reason to call it lone.
+  level.alone[ray] = clear && !scene_.objects[scene_.primitive_object[hit.primitive]].solid;
+  return clear;
+}
+
+void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
+                               RenderStats& stats) {
   batch.normal = surfaces.normal;
   batch.facing = surfaces.facing;
   batch.clearance = surfaces.clearance;
-  const bool eye = level.rays.empty();
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
     Place place;
     place.point = get(surfaces.point, i);
     place.facing = get(surfaces.facing, i);
     place.clearance = surfaces.clearance[i];
-    const Hit& hit = level.hits[batch.ray[i]];
     const glm::dvec3 above = place.point + place.clearance * place.facing;  // leaving_point() of nothing near
     batch.plain[i] = true;
     put(batch.from, i, above);
-    if (!level.alone.empty() && level.alone[batch.ray[i]] && (!eye || hit.t < farthest_alone_)) continue;
+    if (stands_alone(level, batch.ray[i], batch.kind)) continue;
+    const Hit& hit = level.hits[batch.ray[i]];
     const Ray ray = ray_of(level, batch.ray[i]);
     place.together = together_depth(ray, hit, place);
     const glm::dvec3 from = leaving_point(prepared_, ray, hit, place, stats.signs, isa_);

@@ -11,6 +11,7 @@
 
 #include "common/model/surface_batch.h"
 #include "common/picture/frame.h"
+#include "raytrace/clearings.h"
 #include "raytrace/enclosed.h"
 #include "raytrace/eye_packets.h"
 #include "raytrace/lone_hit.h"
@@ -47,8 +48,8 @@ struct Level {
   std::vector<WaveRay> rays;     // none at the eye's level: those are the camera's
   std::vector<WaveRay> waiting;  // rays of this depth whose turn comes later
   std::vector<Hit> hits;
-  // Nothing else stands near the hit, where that is known: of the eye's level by EyePackets; of the others, of hits on
-  // solids, by lone_hit().
+  // Nothing else stands near the hit, where that is known: of the eye's level by EyePackets; of the others by lone_hit(),
+  // which is asked on solids, or is_clear().
   std::vector<std::uint8_t> alone;
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
   std::vector<double> cut_weight;                     // likewise
@@ -82,11 +83,11 @@ class Wave {
   bool take_part(std::size_t depth);
   void find_hits(Level& level, bool eye, RenderStats& stats);
   Hit first_hit(const WaveRay& ray, RenderStats& stats) const;
-  Hit first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) const;
+  Hit first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats);
   void find_surfaces(Level& level, bool eye, RenderStats& stats);
   void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
-  void find_leaving_points(const Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
-                           RenderStats& stats) const;
+  void find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch, RenderStats& stats);
+  bool stands_alone(Level& level, std::size_t ray, ObjectKind kind);
   void add_lights(const Level& level, RenderStats& stats);
   void find_shadows(std::size_t light, RenderStats& stats);
   ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
@@ -95,10 +96,10 @@ class Wave {
   void sum_up(Level& level, bool eye);
   Surface surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray,
                      bool lone) const;
-  bool is_lone(const Level& level, std::size_t ray, const Ray& way) const;
-  void send_secondary(Level& level, Level& next, RenderStats& stats) const;
+  bool is_lone(const Level& level, std::size_t ray, const Ray& way);
+  void send_secondary(Level& level, Level& next, RenderStats& stats);
   void send_from(Level& level, const HitBatch& batch, std::size_t i, const Path& path, Level& next,
-                 RenderStats& stats) const;
+                 RenderStats& stats);
   void bring_back(const Level& level, Level& parent) const;
   HitBatch& next_batch();
 
@@ -116,6 +117,7 @@ class Wave {
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
   ShadowPackets shadow_packets_;
   Enclosures enclosures_;
+  Clearings clearings_;
   std::vector<ShadowQuery> queries_;    // of entry i of batch b: [b kCapacity + i]
   std::vector<std::size_t> enclosing_;  // likewise: the solid around it, or Enclosures::kNone
   std::vector<std::uint32_t> asking_;   // those that ask a light

@@ -29,14 +29,14 @@ Surface Wave::surface_of(const Level& level, const HitBatch& batch, std::size_t 
 }
 
 // Whether a hit on a solid is known to be lone. EyePackets look for less.
-bool Wave::is_lone(const Level& level, std::size_t ray, const Ray& way) const {
+bool Wave::is_lone(const Level& level, std::size_t ray, const Ray& way) {
   if (!level.rays.empty()) return level.alone[ray];
   const Hit& hit = level.hits[ray];
   return !prepared_.solids.empty() && scene_.objects[scene_.primitive_object[hit.primitive]].solid &&
-         lone_hit(prepared_, way, hit, isa_) != Lone::unknown;
+         lone_hit(prepared_, way, hit, isa_, &clearings_) != Lone::unknown;
 }
 
-void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) const {
+void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) {
   Path eye_path;
   for (std::size_t b = 0; b < used_; ++b) {
     const HitBatch& batch = batches_[b];
@@ -56,7 +56,7 @@ void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) const {
 }
 
 void Wave::send_from(Level& level, const HitBatch& batch, std::size_t i, const Path& path, Level& next,
-                     RenderStats& stats) const {
+                     RenderStats& stats) {
   const std::uint32_t ray = batch.ray[i];
   const auto follow = [&](Departure& leaving, std::uint32_t own, bool passes) {
     auto& [way, c] = leaving;
