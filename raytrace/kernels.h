@@ -3,6 +3,7 @@
 // set. Every set gives the same answers and counts.
 #pragma once
 
+#include "raytrace/optics_batch.h"
 #include "raytrace/prepared.h"
 
 namespace sidelight::raytrace {
@@ -50,6 +51,8 @@ struct Kernels {
   void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
   void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);
   double (*inset)(const TriangleLeaves& leaves, const InsetQuestion& question);
+  // Fills the batch's results.
+  void (*directions)(OpticsBatch& batch);
 };
 
 const Kernels& kernels_scalar();

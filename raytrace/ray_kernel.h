@@ -7,6 +7,7 @@
 #include "raytrace/kernels.h"
 #include "raytrace/leaf_kernel.h"
 #include "raytrace/near_kernel.h"
+#include "raytrace/optics_kernel.h"
 
 namespace sidelight::raytrace {
 
@@ -174,6 +175,6 @@ template <class F, class D>
 inline constexpr Kernels kKernels{nearest_in_lanes<F, D>,        blocker_in_lanes<F, D>,
                                   candidates_in_lanes<F, D>,     visit_leaves_in_lanes<F, D>,
                                   near_triangles_in_lanes<F, D>, near_spheres_in_lanes<F, D>,
-                                  inset_in_lanes<F, D>};
+                                  inset_in_lanes<F, D>,          directions_in_lanes<D>};
 
 }  // namespace sidelight::raytrace

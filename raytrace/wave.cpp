@@ -13,7 +13,6 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
     : prepared_(prepared),
       scene_(prepared.scene),
       camera_(camera),
-      eye_media_(eye_media),
       isa_(options.isa),
       primary_(options.primary),
       secondary_(prepared.needs[Need::mirrors] || prepared.needs[Need::refraction]),
@@ -26,6 +25,7 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       shadow_packets_(prepared, options.isa),
       enclosures_(prepared),
       clearings_(prepared, options.isa) {
+  eye_path_.media = eye_media;
   farthest_alone_ = 16 * eye_packets_.reach() / eye_packets_.ray_length();
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
     surfaces_[static_cast<std::size_t>(kind)].kind = kind;
@@ -103,12 +103,10 @@ Ray Wave::ray_of(const Level& level, std::size_t ray) const {
   return {camera_.eye, camera_.direction(X, Y)};
 }
 
-Path Wave::path_of(const Level& level, std::size_t ray) const {
+const Path& Wave::path_of(const Level& level, std::size_t ray) {
   if (!level.rays.empty()) return level.rays[ray].path;
-  Path path;
-  path.ray = ray_of(level, ray);
-  path.media = eye_media_;
-  return path;
+  eye_path_.ray = ray_of(level, ray);
+  return eye_path_;
 }
 
 // ---- Hits ----
@@ -172,11 +170,12 @@ Hit Wave::first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) {
     const std::uint32_t object = scene_.primitive_object[hit.primitive];
     if (!scene_.objects[object].solid) return hit;
     const Lone lone = lone_hit(prepared_, path.ray, hit, isa_, &clearings_);
-    alone = lone != Lone::unknown;
+    alone = static_cast<std::uint8_t>(lone);
     const Media behind =
-        alone ? media_behind_lone(prepared_, object, lone == Lone::entering, path.media)
-              : media_behind(prepared_, path.ray, hit, surface_at(scene_, path.ray, hit, stats.signs),
-                             path.media, stats.signs);
+        lone != Lone::unknown
+            ? media_behind_lone(prepared_, object, lone == Lone::entering, path.media)
+            : media_behind(prepared_, path.ray, hit, surface_at(scene_, path.ray, hit, stats.signs),
+                           path.media, stats.signs);
     if (behind.current() != path.media.current()) return hit;
     path.media = behind;
   }

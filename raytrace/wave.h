@@ -15,6 +15,7 @@
 #include "raytrace/enclosed.h"
 #include "raytrace/eye_packets.h"
 #include "raytrace/lone_hit.h"
+#include "raytrace/optics_batch.h"
 #include "raytrace/secondary.h"
 #include "raytrace/shadow_packets.h"
 
@@ -42,14 +43,22 @@ struct WaveRay {
   bool passes = false;  // at its start it crosses that primitive and no other, without a change of medium
 };
 
+// What is known of a hit that sends rays before their directions are found.
+struct Sender {
+  std::size_t entry = 0;  // of its batch
+  Lone lone = Lone::unknown;
+  bool entering = false;  // of a solid that refracts: whether the ray does
+  Media behind;           // likewise
+};
+
 // Rays of one depth that are traced together. Numbers are those of the rays; of the eye's level, of the tile's samples
 // row by row.
 struct Level {
   std::vector<WaveRay> rays;     // none at the eye's level: those are the camera's
   std::vector<WaveRay> waiting;  // rays of this depth whose turn comes later
   std::vector<Hit> hits;
-  // Nothing else stands near the hit, where that is known: of the eye's level by EyePackets; of the others by lone_hit(),
-  // which is asked on solids, or is_clear().
+  // Nothing else stands near the hit, where that is known: of the eye's level by EyePackets; of the others by is_clear()
+  // or, of hits on solids, by lone_hit(): then as it says.
   std::vector<std::uint8_t> alone;
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
   std::vector<double> cut_weight;                     // likewise
@@ -74,7 +83,7 @@ class Wave {
 
   std::size_t columns() const { return static_cast<std::size_t>(camera_.n * pixels_.width()); }
   std::size_t samples() const { return columns() * static_cast<std::size_t>(camera_.n * pixels_.height()); }
-  Path path_of(const Level& level, std::size_t ray) const;
+  const Path& path_of(const Level& level, std::size_t ray);  // until it is asked for the next one
   Ray ray_of(const Level& level, std::size_t ray) const;
 
   void begin(const Rect& pixels);
@@ -94,24 +103,23 @@ class Wave {
   std::size_t enclosing_solid(const Level& level, const HitBatch& batch, std::size_t i) const;
   void add_lights_of(HitBatch& batch) const;
   void sum_up(Level& level, bool eye);
-  Surface surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray,
-                     bool lone) const;
-  bool is_lone(const Level& level, std::size_t ray, const Ray& way);
   void send_secondary(Level& level, Level& next, RenderStats& stats);
-  void send_from(Level& level, const HitBatch& batch, std::size_t i, const Path& path, Level& next,
-                 RenderStats& stats);
+  void find_senders(Level& level, const HitBatch& batch, RenderStats& stats);
+  void find_behind(const Level& level, const HitBatch& batch, const Path& path, Sender& sender,
+                   SignCounts& counts);
+  void send_from(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
   void bring_back(const Level& level, Level& parent) const;
   HitBatch& next_batch();
 
   const Prepared& prepared_;
   const Scene& scene_;
   const Camera& camera_;
-  const Media& eye_media_;
   Isa isa_;
   const Frame* primary_;      // RenderOptions::primary
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;
+  Path eye_path_;                     // of the eye's ray that was asked for last
   std::vector<std::uint32_t> order_;  // of the eye's hits: block by block, as packets are
   EyePackets eye_packets_;
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
@@ -125,6 +133,8 @@ class Wave {
   std::vector<Level> levels_;
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind
   ShadingBatch shading_;
+  OpticsBatch optics_;
+  std::array<Sender, OpticsBatch::kCapacity> senders_;  // entry by entry
   std::vector<HitBatch> batches_;  // of the level that is worked at, the first used_ of them
   std::size_t used_ = 0;
   // Of the eye's level, where they are wanted.
