@@ -142,7 +142,8 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   if (!secondary_) return;
   level.mirrored.assign(size, glm::vec3(0));
   level.refracted.assign(size, glm::vec3(0));
-  level.cut_weight.assign(size, 0.0);
+  level.cut_mirrored.assign(size, 0.0);
+  level.cut_refracted.assign(size, 0.0);
 }
 
 // The nearest hit; not that of the surface at which the ray starts and is through.

@@ -61,7 +61,7 @@ struct Level {
   // or, of hits on solids, by lone_hit(): then as it says.
   std::vector<std::uint8_t> alone;
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
-  std::vector<double> cut_weight;                     // likewise
+  std::vector<double> cut_mirrored, cut_refracted;    // likewise: weights not sent there, and below
 };
 
 // Whether the ray comes from the outward side, Nv being `facing`: as locate() has it.
@@ -107,7 +107,13 @@ class Wave {
   void find_senders(Level& level, const HitBatch& batch, RenderStats& stats);
   void find_behind(const Level& level, const HitBatch& batch, const Path& path, Sender& sender,
                    SignCounts& counts);
-  void send_from(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
+  bool is_total(std::size_t k) const {  // reflection at entry k of optics_
+    return optics_.eta[k] != OpticsBatch::kNoRefraction && optics_.total[k] != 0;
+  }
+  WaveRay* send(Level& level, std::uint32_t parent, const glm::dvec3& c, RayKind kind, Level& next,
+                RenderStats& stats);
+  void send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
+  void send_transmitted(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
   void bring_back(const Level& level, Level& parent) const;
   HitBatch& next_batch();
 

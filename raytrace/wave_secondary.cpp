@@ -19,7 +19,10 @@ void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) {
   for (std::size_t b = 0; b < used_; ++b) {
     find_senders(level, batches_[b], stats);
     kernels_for(isa_).directions(optics_);
-    for (std::size_t k = 0; k < optics_.size; ++k) send_from(level, batches_[b], k, next, stats);
+    for (std::size_t k = 0; k < optics_.size; ++k) {
+      send_mirrored(level, batches_[b], k, next, stats);
+      send_transmitted(level, batches_[b], k, next, stats);
+    }
   }
 }
 
@@ -32,7 +35,7 @@ void Wave::find_senders(Level& level, const HitBatch& batch, RenderStats& stats)
     const std::uint32_t ray = batch.ray[i];
     const Path& path = path_of(level, ray);
     if (path.depth >= scene_.trace.depth && c3 == 0) {
-      level.cut_weight[ray] += path.weight * c2;  // not sent, so where to is not asked
+      level.cut_mirrored[ray] = path.weight * c2;  // not sent, so where to is not asked
       continue;
     }
     const std::size_t k = optics_.size++;
@@ -75,59 +78,68 @@ void Wave::find_behind(const Level& level, const HitBatch& batch, const Path& pa
   sender.behind = media_behind(prepared_, path.ray, hit, surface, path.media, counts);
 }
 
-void Wave::send_from(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats) {
+// A ray to be filled in, or nothing where it is not sent.
+WaveRay* Wave::send(Level& level, std::uint32_t parent, const glm::dvec3& c, RayKind kind, Level& next,
+                    RenderStats& stats) {
+  if (largest(c) == 0) return nullptr;
+  const Path& path = path_of(level, parent);
+  const double weight = path.weight * largest(c);
+  if (!is_sent(scene_, path.depth, weight)) {
+    (is_mirrored(kind) ? level.cut_mirrored : level.cut_refracted)[parent] = weight;
+    return nullptr;
+  }
+  ++(is_mirrored(kind) ? stats.rays.reflection : stats.rays.refraction);
+  WaveRay& ray = next.waiting.emplace_back();
+  ray.path.kind = kind;
+  ray.path.depth = path.depth + 1;
+  ray.path.weight = weight;
+  ray.c = c;
+  ray.parent = parent;
+  return &ray;
+}
+
+// One ray carries both weights where reflection is total.
+void Wave::send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Level& next,
+                         RenderStats& stats) {
   const Sender& sender = senders_[k];
   const std::size_t i = sender.entry;
-  const std::uint32_t parent = batch.ray[i];
-  const Path& path = path_of(level, parent);
-  const Hit& hit = level.hits[parent];
-  // The ray to be filled in, or nothing where it is not sent.
-  const auto follow = [&](const glm::dvec3& c, RayKind kind) -> WaveRay* {
-    if (largest(c) == 0) return nullptr;
-    const double weight = path.weight * largest(c);
-    if (!is_sent(scene_, path.depth, weight)) {
-      level.cut_weight[parent] += weight;
-      return nullptr;
-    }
-    ++(is_mirrored(kind) ? stats.rays.reflection : stats.rays.refraction);
-    WaveRay& ray = next.waiting.emplace_back();
-    ray.path.kind = kind;
-    ray.path.depth = path.depth + 1;
-    ray.path.weight = weight;
-    ray.c = c;
-    ray.parent = parent;
-    return &ray;
-  };
   const Material& material = scene_.materials[batch.material[i]];
-  const glm::dvec3 c2 = reflect_of(scene_, material), c3 = refract_of(scene_, material);
-  const glm::dvec3 from = get(batch.from, i);
-  const bool solid = scene_.objects[scene_.primitive_object[hit.primitive]].solid;
-  const bool refracts = optics_.eta[k] != OpticsBatch::kNoRefraction;
-  const bool total = refracts && optics_.total[k] != 0, lone = sender.lone != Lone::unknown;
+  const glm::dvec3 c2 = reflect_of(scene_, material);
+  const bool total = is_total(k);
+  WaveRay* ray = send(level, batch.ray[i], total ? c2 + refract_of(scene_, material) : c2,
+                      total ? RayKind::internally_reflected : RayKind::mirrored, next, stats);
+  if (!ray) return;
+  const std::uint32_t primitive = level.hits[batch.ray[i]].primitive;
+  ray->path.ray = {get(batch.from, i), get(optics_.mirrored, k)};
+  ray->path.media = path_of(level, batch.ray[i]).media;
+  if (batch.kind == ObjectKind::sphere && !sender.entering) ray->own = primitive;
+  const bool solid = scene_.objects[scene_.primitive_object[primitive]].solid;
+  const bool in_the_open = !solid && batch.plain[i] != 0 && ray->path.media.current() == kNone;
+  if (sender.lone == Lone::unknown && !in_the_open) ray->path.media.doubt();
+}
 
-  // One ray carries both weights where reflection is total.
-  if (WaveRay* ray =
-          follow(total ? c2 + c3 : c2, total ? RayKind::internally_reflected : RayKind::mirrored)) {
-    ray->path.ray = {from, get(optics_.mirrored, k)};
+void Wave::send_transmitted(Level& level, const HitBatch& batch, std::size_t k, Level& next,
+                            RenderStats& stats) {
+  if (is_total(k)) return;
+  const Sender& sender = senders_[k];
+  const std::size_t i = sender.entry;
+  const bool refracts = optics_.eta[k] != OpticsBatch::kNoRefraction;
+  WaveRay* ray = send(level, batch.ray[i], refract_of(scene_, scene_.materials[batch.material[i]]),
+                      refracts ? RayKind::refracted : RayKind::straight, next, stats);
+  if (!ray) return;
+  const Hit& hit = level.hits[batch.ray[i]];
+  if (refracts) {
+    ray->path.ray = {get(batch.from, i), get(optics_.refracted, k)};
+    ray->path.media = sender.behind;
+    ray->passes = sender.lone != Lone::unknown && is_steep(ray->path.ray.direction, get(batch.facing, i));
+    if (ray->passes) ray->own = hit.primitive;
+  } else {  // a sheet without an inside: straight on, along the same ray
+    const Path& path = path_of(level, batch.ray[i]);
+    ray->path.ray = path.ray;
+    ray->path.start = hit;
     ray->path.media = path.media;
-    if (batch.kind == ObjectKind::sphere && !sender.entering) ray->own = hit.primitive;
-    const bool in_the_open = path.media.current() == kNone && batch.plain[i] != 0;
-    if (!lone && (solid || !in_the_open)) ray->path.media.doubt();
   }
-  if (total) return;
-  if (WaveRay* ray = follow(c3, refracts ? RayKind::refracted : RayKind::straight)) {
-    if (refracts) {
-      ray->path.ray = {from, get(optics_.refracted, k)};
-      ray->path.media = sender.behind;
-      ray->passes = lone && is_steep(ray->path.ray.direction, get(batch.facing, i));
-      if (ray->passes) ray->own = hit.primitive;
-    } else {  // a sheet without an inside: straight on, along the same ray
-      ray->path.ray = path.ray;
-      ray->path.start = hit;
-      ray->path.media = path.media;
-    }
-    if (!ray->passes) ray->path.media.doubt();
-  }
+  if (!ray->passes) ray->path.media.doubt();
 }
 
 // c w(r) color of every ray, to where it came from.
@@ -142,7 +154,8 @@ void Wave::bring_back(const Level& level, Level& parent) const {
             : 1.0f;
     (is_mirrored(ray.path.kind) ? parent.mirrored : parent.refracted)[ray.parent] =
         glm::vec3(ray.c) * (w * color);
-    parent.cut_weight[ray.parent] += level.cut_weight[i];
+    (is_mirrored(ray.path.kind) ? parent.cut_mirrored : parent.cut_refracted)[ray.parent] =
+        level.cut_mirrored[i] + level.cut_refracted[i];
   }
 }
 
