@@ -87,8 +87,9 @@ template <class F>
       near = lane_max<F>(near, depth(ray.near_face[i], ray.near_from[i], ray.inverse[i]));
       far = lane_min<F>(far, depth(ray.far_face[i], ray.far_from[i], ray.inverse[i]) * F(BoxRay::kSlack));
     }
-    store<F>(near, met.entry.data() + lane);
-    met.bits |= mask_bits<F>(near <= far) << lane;
+    const Mask<F> met_here = near <= far;
+    store<F>(select<F>(met_here, near, F(std::numeric_limits<float>::infinity())), met.entry.data() + lane);
+    met.bits |= mask_bits<F>(met_here) << lane;
   }
 }
 

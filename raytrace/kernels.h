@@ -3,6 +3,8 @@
 // set. Every set gives the same answers and counts.
 #pragma once
 
+#include <span>
+
 #include "raytrace/optics_batch.h"
 #include "raytrace/prepared.h"
 
@@ -36,11 +38,21 @@ struct InsetQuestion {
   std::uint32_t except;
 };
 
+// For the nearest hit of a ray after `after`, but not that of `except`: `best` is replaced by what is nearer.
+struct RayQuestion {
+  Ray ray;
+  Hit after;
+  std::uint32_t except = kNone;
+  Hit best;
+};
+
 // Rays are finite; planes are left to the caller.
 struct Kernels {
   // Replaces `best` by what is nearer, of that which comes after `after` and is not `except`.
   void (*nearest)(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t except, Hit& best,
                   SignCounts& counts);
+  // The same for many rays: neighbours should have much the same way.
+  void (*nearest_of)(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts);
   // blocker() of prepared.h.
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -63,6 +64,11 @@ Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCoun
 // The same where of one primitive, `known`, it is known that its hit, if it has one, is `own`: it is not asked.
 Hit nearest_beside(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t known,
                    const Hit& own, SignCounts& counts, Isa isa);
+
+// The same for many rays, neighbours of which should have much the same way: `best` of each question, its own hit at
+// first, becomes the nearest.
+struct RayQuestion;
+void nearest_beside(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts, Isa isa);
 
 // Something that casts shadows and stands between the ray's origin and the light; not found() if nothing does. For a
 // point light the ray's direction is light - origin and the light is at t = 1; for a directional one (light ==

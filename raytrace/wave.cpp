@@ -136,7 +136,9 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   } else {
     level.hits.resize(size);
     level.alone.assign(size, false);
-    for (std::size_t i = 0; i < size; ++i) level.hits[i] = first_shaded(level.rays[i], level.alone[i], stats);
+    find_first_hits(level, stats);
+    for (std::size_t i = 0; i < size; ++i)
+      level.hits[i] = first_shaded(level.hits[i], level.rays[i], level.alone[i], stats);
   }
   level.color.assign(size, glm::vec3(scene_.background));
   if (!secondary_) return;
@@ -146,26 +148,32 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   level.cut_refracted.assign(size, 0.0);
 }
 
-// The nearest hit; not that of the surface at which the ray starts and is through.
-Hit Wave::first_hit(const WaveRay& ray, RenderStats& stats) const {
-  const Path& path = ray.path;
-  Hit own;  // a flat surface is not met again, a ball is at its far side
-  if (ray.own != kNone) {
-    const PrimitiveRef ref = primitive_ref(scene_, ray.own);
-    if (ref.kind == ObjectKind::sphere) {
+// The nearest hits; not that of the surface at which a ray starts and is through.
+void Wave::find_first_hits(Level& level, RenderStats& stats) {
+  questions_.clear();
+  asking_.clear();
+  for (std::size_t i = 0; i < level.rays.size(); ++i) {
+    const WaveRay& ray = level.rays[i];
+    const Path& path = ray.path;
+    Hit own;  // a flat surface is not met again, a ball is at its far side
+    if (ray.own != kNone && primitive_ref(scene_, ray.own).kind == ObjectKind::sphere) {
       own = intersect(scene_, ray.own, path.ray, path.start, stats.signs);
       if (ray.passes && own.found()) own = intersect(scene_, ray.own, path.ray, own, stats.signs);
-      if (own.found() && prepared_.secluded[ref.index]) return own;
+      level.hits[i] = own;
+      if (own.found() && prepared_.secluded[primitive_ref(scene_, ray.own).index]) continue;
     }
+    questions_.push_back({path.ray, path.start, ray.own, own});
+    asking_.push_back(static_cast<std::uint32_t>(i));
   }
-  return nearest_beside(prepared_, path.ray, path.start, ray.own, own, stats.signs, isa_);
+  nearest_beside(prepared_, questions_, stats.signs, isa_);
+  for (std::size_t k = 0; k < asking_.size(); ++k) level.hits[asking_[k]] = questions_[k].best;
 }
 
-// The first hit of a secondary ray that is not just a surface inside of a medium that goes on behind it.
-Hit Wave::first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) {
+// From the first hit of a secondary ray on: the first that is not just a surface inside of a medium that goes on behind
+// it.
+Hit Wave::first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats) {
   Path& path = ray.path;
-  for (Hit hit = first_hit(ray, stats);;
-       hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
+  for (;; hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
     alone = false;
     if (!hit.found() || prepared_.solids.empty()) return hit;
     const std::uint32_t object = scene_.primitive_object[hit.primitive];

@@ -14,6 +14,7 @@
 #include "raytrace/clearings.h"
 #include "raytrace/enclosed.h"
 #include "raytrace/eye_packets.h"
+#include "raytrace/kernels.h"
 #include "raytrace/lone_hit.h"
 #include "raytrace/optics_batch.h"
 #include "raytrace/secondary.h"
@@ -91,8 +92,8 @@ class Wave {
   void trace_level(std::size_t depth, RenderStats& stats);
   bool take_part(std::size_t depth);
   void find_hits(Level& level, bool eye, RenderStats& stats);
-  Hit first_hit(const WaveRay& ray, RenderStats& stats) const;
-  Hit first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats);
+  void find_first_hits(Level& level, RenderStats& stats);
+  Hit first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats);
   void find_surfaces(Level& level, bool eye, RenderStats& stats);
   void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
   void find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch, RenderStats& stats);
@@ -134,7 +135,8 @@ class Wave {
   Clearings clearings_;
   std::vector<ShadowQuery> queries_;    // of entry i of batch b: [b kCapacity + i]
   std::vector<std::size_t> enclosing_;  // likewise: the solid around it, or Enclosures::kNone
-  std::vector<std::uint32_t> asking_;   // those that ask a light
+  std::vector<RayQuestion> questions_;
+  std::vector<std::uint32_t> asking_;  // which ask a light, or are the rays of questions_
   std::vector<std::uint8_t> dark_;
   std::vector<Level> levels_;
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind

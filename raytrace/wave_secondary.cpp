@@ -19,10 +19,8 @@ void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) {
   for (std::size_t b = 0; b < used_; ++b) {
     find_senders(level, batches_[b], stats);
     kernels_for(isa_).directions(optics_);
-    for (std::size_t k = 0; k < optics_.size; ++k) {
-      send_mirrored(level, batches_[b], k, next, stats);
-      send_transmitted(level, batches_[b], k, next, stats);
-    }
+    for (std::size_t k = 0; k < optics_.size; ++k) send_mirrored(level, batches_[b], k, next, stats);
+    for (std::size_t k = 0; k < optics_.size; ++k) send_transmitted(level, batches_[b], k, next, stats);
   }
 }
 
