@@ -15,10 +15,11 @@ Clearings::Clearings(const Prepared& prepared, Isa isa, int patience)
     : prepared_(prepared),
       isa_(isa),
       room_((1 + 0x1p-10) * room_for(prepared.reach, 4 * prepared.reach)),
-      inset_(prepared.scene.triangles.size(), static_cast<float>(-patience)) {}
+      patience_(patience) {}
 
 bool Clearings::contain(std::uint32_t primitive, const glm::dvec3& point, double room) {
   if (!((1 + 0x1p-10) * room <= room_)) return false;
+  if (inset_.empty()) inset_.assign(prepared_.scene.triangles.size(), static_cast<float>(-patience_));
   const PrimitiveRef ref = primitive_ref(prepared_.scene, primitive);
   float& inset = inset_[ref.index];
   if (inset < 0) {

@@ -27,8 +27,9 @@ class Clearings {
   const Prepared& prepared_;
   Isa isa_;
   double room_;  // that of rays of any length a scene has room for
+  int patience_;
   // Of each triangle the least barycentric weight from which on it is clear, 1 if nowhere; if negative, how often it is
-  // still to be asked about.
+  // still to be asked about. Empty until one is.
   std::vector<float> inset_;
 };
 
