@@ -3,9 +3,9 @@
 // of its tiles. Each thread has bins of its own, never merged or sorted: what a tile shows depends on (depth, primitive).
 #pragma once
 
-#include <memory>
 #include <vector>
 
+#include "common/kept_memory.h"
 #include "raster/bins.h"
 #include "raster/kernels.h"
 
@@ -79,7 +79,7 @@ class VisibleBins {
   RaySheet sheet_;
   SampleBox window_;
   std::vector<int> tile_columns_, tile_rows_;  // of each column and row of the window's samples: no division
-  std::unique_ptr<ScreenVertex[]> vertices_;
+  KeptArray<ScreenVertex> vertices_;
   std::vector<ThreadBins> threads_;
 };
 
