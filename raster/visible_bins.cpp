@@ -82,10 +82,10 @@ std::vector<VisibleBins::Batch> VisibleBins::batches() const {
   return batches;
 }
 
-// The records of four vertices become four x, four y, four w and four states.
+// The records of four vertices become four x, four y, four w and four states; beyond the last triangle's, any.
 void VisibleBins::load_chunk(const Corners3* corners, TriangleChunk& chunk) const {
   const auto record = [&](std::size_t triangle, std::size_t k) {
-    return load_four(&vertices_[corners[std::min(triangle, static_cast<std::size_t>(chunk.size) - 1)][k]]);
+    return load_four(&vertices_[corners[triangle][k]]);
   };
   for (std::size_t i = 0; i < static_cast<std::size_t>(chunk.size); i += 4)
     for (std::size_t k = 0; k < 3; ++k) {

@@ -34,7 +34,7 @@ struct ThreadBins {
 
 class VisibleBins {
  public:
-  // `corners`: of all triangles of the scene, once more, in the 12 bytes that set-up reads.
+  // `corners`: Prepared::corners.
   VisibleBins(const Scene& scene, const Corners3* corners, const Camera& camera, const TileGrid& grid,
               Isa isa, int threads);
 
