@@ -87,8 +87,9 @@ template <class F>
       near = lane_max<F>(near, depth(ray.near_face[i], ray.near_from[i], ray.inverse[i]));
       far = lane_min<F>(far, depth(ray.far_face[i], ray.far_from[i], ray.inverse[i]) * F(BoxRay::kSlack));
     }
-    store<F>(near, met.entry.data() + lane);
-    met.bits |= mask_bits<F>(near <= far) << lane;
+    const Mask<F> met_here = near <= far;
+    store<F>(select<F>(met_here, near, F(std::numeric_limits<float>::infinity())), met.entry.data() + lane);
+    met.bits |= mask_bits<F>(met_here) << lane;
   }
 }
 
@@ -143,18 +144,18 @@ template <class F, class Leaf>
   }
 }
 
-// All leaves within a box around the point, until leaf(first, count) is false.
+// All leaves that meet the box, until leaf(first, count) is false.
 template <class F, class Leaf>
-[[gnu::always_inline]] inline void walk_near(const Bvh& bvh, const glm::dvec3& point, double distance,
-                                             const Leaf& leaf) {
+[[gnu::always_inline]] inline void walk_near(const Bvh& bvh, const glm::dvec3& box_low,
+                                             const glm::dvec3& box_high, const Leaf& leaf) {
   if (bvh.nodes.empty()) return;
   std::array<float, 3> low, high;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const double p = point[axis] - bvh.center[axis];
-    const double room = distance + 0x1p-23 * (p < 0 ? -p : p) + 0x1p-47 * bvh.reach + 0x1p-120;
-    low[i] = static_cast<float>(p - room);
-    high[i] = static_cast<float>(p + room);
+    const double from = box_low[axis] - bvh.center[axis], to = box_high[axis] - bvh.center[axis];
+    const double pad = 0x1p-46 * bvh.reach + 0x1p-120;
+    low[i] = static_cast<float>(from - (0x1p-23 * (from < 0 ? -from : from) + pad));
+    high[i] = static_cast<float>(to + (0x1p-23 * (to < 0 ? -to : to) + pad));
   }
   std::array<std::uint32_t, Bvh::kMaxDepth*(BvhNode::kWidth - 1) + 1> stack;
   std::size_t size = 0;

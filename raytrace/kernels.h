@@ -3,6 +3,9 @@
 // set. Every set gives the same answers and counts.
 #pragma once
 
+#include <span>
+
+#include "raytrace/optics_batch.h"
 #include "raytrace/prepared.h"
 
 namespace sidelight::raytrace {
@@ -27,11 +30,29 @@ struct NearQuestion {
   const bool* enough = nullptr;  // where there is one, nothing more is asked once it is true
 };
 
+// How far from its edges is a triangle free of others? At points with barycentric weights of at least the answer, or more,
+// no triangle but `except` is within `room`, along each axis; 1: nowhere.
+struct InsetQuestion {
+  Corners corners;
+  double room;
+  std::uint32_t except;
+};
+
+// For the nearest hit of a ray after `after`, but not that of `except`: `best` is replaced by what is nearer.
+struct RayQuestion {
+  Ray ray;
+  Hit after;
+  std::uint32_t except = kNone;
+  Hit best;
+};
+
 // Rays are finite; planes are left to the caller.
 struct Kernels {
   // Replaces `best` by what is nearer, of that which comes after `after` and is not `except`.
   void (*nearest)(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t except, Hit& best,
                   SignCounts& counts);
+  // The same for many rays: neighbours should have much the same way.
+  void (*nearest_of)(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts);
   // blocker() of prepared.h.
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);
@@ -41,6 +62,9 @@ struct Kernels {
   std::uint64_t (*visit_leaves)(const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
   void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
   void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);
+  double (*inset)(const TriangleLeaves& leaves, const InsetQuestion& question);
+  // Fills the batch's results.
+  void (*directions)(OpticsBatch& batch);
 };
 
 const Kernels& kernels_scalar();

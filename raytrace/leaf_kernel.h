@@ -33,6 +33,7 @@ class TriangleFilter {
  public:
   static constexpr int kRows = 9;
 
+  TriangleFilter() = default;  // to be set
   explicit TriangleFilter(const Ray& ray) {
     const auto magnitude = [](double x) { return x < 0 ? -x : x; };
     const double x = magnitude(ray.direction.x), y = magnitude(ray.direction.y),
@@ -102,6 +103,7 @@ class SphereFilter {
  public:
   static constexpr int kRows = 4;
 
+  SphereFilter() = default;  // to be set
   SphereFilter(const Ray& ray, double reach) {
     const auto magnitude = [](double x) { return x < 0 ? -x : x; };
     double largest = reach;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raytrace/clearings.h"
 #include "raytrace/kernels.h"
 
 namespace sidelight::raytrace {
@@ -11,15 +12,6 @@ namespace {
 
 // Of the cosine between a ray and the normal.
 constexpr double kLeastCosine = 0x1p-10;
-
-// Within what distance of o + t d, along each axis, nothing else may be. With R the greatest coordinate and s = t |d|:
-//   depths are off by 2^-18 (visibility.h), that of this hit and those of others:      2^-17 s
-//   and roots of a sphere that is grazed by the square root of their rounding:         8 sqrt(u) R < 2^-23 R
-//   surfaces count as crossed together up to 2^-46 s + 4 clearances / cosine, where rays start that leave is one
-//   clearance / cosine before, and no clearance is above 28 u R + 20 u s:               2^-34 (R + s)
-//   rays that leave are moved off what is within 10 (clearance + 32 u R) + 2^-20 s of the point (place.cpp).
-// All of these together, and the rounding of the point itself, are less than
-double room_for(double reach, double way) { return 0x1p-16 * way + 0x1p-20 * reach; }
 
 // Outward, of any length; zero where a sphere is so small that its far side might lie near.
 glm::dvec3 outward_at(const Scene& scene, const PrimitiveRef& ref, const glm::dvec3& point, double room) {
@@ -51,6 +43,22 @@ bool anything_near(const Prepared& prepared, const glm::dvec3& point, double roo
 
 }  // namespace
 
+// Within what distance of o + t d, along each axis, nothing else may be. With R the greatest coordinate and s = t |d|:
+//   depths are off by 2^-18 (visibility.h), that of this hit and those of others:      2^-17 s
+//   and roots of a sphere that is grazed by the square root of their rounding:         8 sqrt(u) R < 2^-23 R
+//   surfaces count as crossed together up to 2^-46 s + 4 clearances / cosine, where rays start that leave is one
+//   clearance / cosine before, and no clearance is above 28 u R + 20 u s:               2^-34 (R + s)
+//   rays that leave are moved off what is within 10 (clearance + 32 u R) + 2^-20 s of the point (place.cpp).
+// All of these together, and the rounding of the point itself, are less than
+double room_for(double reach, double way) { return 0x1p-16 * way + 0x1p-20 * reach; }
+
+bool is_clear(const Prepared& prepared, const Ray& ray, const Hit& hit, Clearings& clearings) {
+  if (primitive_ref(prepared.scene, hit.primitive).kind != ObjectKind::mesh) return false;
+  const double way = hit.t * glm::length(ray.direction);
+  return clearings.contain(hit.primitive, ray.origin + hit.t * ray.direction,
+                           room_for(prepared.reach_from(ray.origin), way));
+}
+
 bool is_steep(const glm::dvec3& direction, const glm::dvec3& facing) {
   return std::abs(glm::dot(direction, facing)) >= kLeastCosine;
 }
@@ -69,7 +77,7 @@ bool is_secluded(const Prepared& prepared, std::uint32_t sphere) {
          !anything_near(prepared, ball.center, radius, sphere, best_isa(), is_far_ball);
 }
 
-Lone lone_hit(const Prepared& prepared, const Ray& ray, const Hit& hit, Isa isa) {
+Lone lone_hit(const Prepared& prepared, const Ray& ray, const Hit& hit, Isa isa, Clearings* clearings) {
   const PrimitiveRef ref = primitive_ref(prepared.scene, hit.primitive);
   const glm::dvec3 point = ray.origin + hit.t * ray.direction;
   const double length = glm::length(ray.direction);
@@ -77,9 +85,12 @@ Lone lone_hit(const Prepared& prepared, const Ray& ray, const Hit& hit, Isa isa)
   const glm::dvec3 outward = outward_at(prepared.scene, ref, point, room);
   const double along = glm::dot(ray.direction, outward);
   if (!(std::abs(along) > 2 * kLeastCosine * length * glm::length(outward))) return Lone::unknown;
-  const bool secluded = ref.kind == ObjectKind::sphere && prepared.secluded[ref.index];
+  const bool alone = ref.kind == ObjectKind::sphere ? prepared.secluded[ref.index] != 0
+                     : ref.kind == ObjectKind::mesh && clearings
+                         ? clearings->contain(hit.primitive, point, room)
+                         : false;
   const auto none = [](std::uint32_t) { return false; };
-  if (!secluded && anything_near(prepared, point, room, hit.primitive, isa, none)) return Lone::unknown;
+  if (!alone && anything_near(prepared, point, room, hit.primitive, isa, none)) return Lone::unknown;
   return along < 0 ? Lone::entering : Lone::leaving;
 }
 

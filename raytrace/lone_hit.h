@@ -8,11 +8,22 @@
 
 namespace sidelight::raytrace {
 
+class Clearings;
+
+// Within what distance of a hit, along each axis, nothing else may be for it to be lone: of a ray that met it `way` from
+// its origin, `reach` being Prepared::reach_from.
+double room_for(double reach, double way);
+
 // Whether a hit is lone and, as locate() has it, whether its ray comes from the outward side.
 enum class Lone : std::uint8_t { unknown, entering, leaving };
 
 // Of any hit of any ray. `unknown` also where the ray grazes the surface. A solid that is lone there is crossed once.
-Lone lone_hit(const Prepared& prepared, const Ray& ray, const Hit& hit, Isa isa = best_isa());
+// With `clearings`, which may know of nothing near, there is less to search for.
+Lone lone_hit(const Prepared& prepared, const Ray& ray, const Hit& hit, Isa isa = best_isa(),
+              Clearings* clearings = nullptr);
+
+// Whether at a hit of any ray, a grazing one too, nothing else is known to lie near, by `clearings` alone.
+bool is_clear(const Prepared& prepared, const Ray& ray, const Hit& hit, Clearings& clearings);
 
 // Whether for certain there is nothing else in a ball, nor within a quarter of its radius around it: a ray inside meets
 // its far side next, and any hit on it is as good as lone. To be prepared (Prepared::secluded), as it asks anew.

@@ -16,11 +16,7 @@ void cross(Media& media, std::uint32_t object, bool entering) {
 // Whether surfaces of two solids may lie together. A grazing ray alone cannot tell: to it, much lies close.
 bool meets(const Prepared& prepared, std::uint32_t a, std::uint32_t b) {
   if (a == b) return true;
-  const auto bounds = [&](std::uint32_t solid) {
-    const auto at = std::lower_bound(prepared.solids.begin(), prepared.solids.end(), solid);
-    return prepared.bounds[static_cast<std::size_t>(at - prepared.solids.begin())];
-  };
-  return bounds(a).meets(bounds(b));
+  return prepared.bounds[prepared.place_of(a)].meets(prepared.bounds[prepared.place_of(b)]);
 }
 
 }  // namespace
@@ -32,7 +28,7 @@ std::size_t Media::place_of(std::uint32_t solid) const {
 
 void Media::enter(std::uint32_t solid) {
   const std::size_t at = place_of(solid);
-  if (at < size_ && begin()[at] == solid) return;
+  if (at < size_ && begin()[at] == solid) return doubt();
   if (size_ == kFew && many_.empty()) many_.assign(few_.begin(), few_.end());
   if (many_.empty()) {
     std::copy_backward(few_.begin() + at, few_.begin() + size_, few_.begin() + size_ + 1);
@@ -45,7 +41,7 @@ void Media::enter(std::uint32_t solid) {
 
 void Media::leave(std::uint32_t solid) {
   const std::size_t at = place_of(solid);
-  if (at == size_ || begin()[at] != solid) return;
+  if (at == size_ || begin()[at] != solid) return doubt();
   if (many_.empty())
     std::copy(few_.begin() + at + 1, few_.begin() + size_, few_.begin() + at);
   else
@@ -55,8 +51,12 @@ void Media::leave(std::uint32_t solid) {
 
 Media media_at(const Prepared& prepared, const glm::dvec3& eye) {
   Media media;
-  for (const std::uint32_t solid : prepared.solids)
-    if (contains(prepared.scene, prepared.scene.objects[solid], eye)) media.enter(solid);
+  media.certain_ = true;
+  for (std::size_t i = 0; i < prepared.solids.size(); ++i) {
+    const Object& solid = prepared.scene.objects[prepared.solids[i]];
+    if (contains(prepared.scene, solid, eye)) media.enter(prepared.solids[i]);
+    if (solid.kind == ObjectKind::mesh && prepared.bounds[i].meets({eye, eye})) media.doubt();
+  }
   return media;
 }
 
@@ -79,6 +79,7 @@ Media media_behind(const Prepared& prepared, const Ray& ray, const Hit& hit, con
     if (far_side.found() && far_side.t <= surface.together) cross_at(far_side);
     return behind;
   }
+  behind.doubt();
   for (const Hit& each : hits_between(prepared, ray, hit, surface.together, counts)) cross_at(each);
   return behind;
 }

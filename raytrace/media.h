@@ -20,14 +20,23 @@ class Media {
   std::uint32_t current() const { return size_ == 0 ? kNone : begin()[size_ - 1]; }
   double ior(const Scene& scene) const { return size_ == 0 ? 1.0 : scene.objects[current()].ior; }
 
+  // Whether meshes of this set surely wind around the point, however they overlap themselves: so it is where no mesh did at
+  // the eye, and since then each crossing was found alone, into what was outside before or out of what was inside.
+  // Set by media_at(), lost with the first crossing of another kind, or by doubt().
+  bool certain() const { return certain_; }
+  void doubt() { certain_ = false; }
+
  private:
+  friend Media media_at(const Prepared& prepared, const glm::dvec3& eye);
+
   static constexpr std::size_t kFew = 3;
 
   const std::uint32_t* begin() const { return many_.empty() ? few_.data() : many_.data(); }
   std::size_t place_of(std::uint32_t solid) const;
 
   // Objects, ascending: a few, as nearly always, or any number. Every ray has such a set of its own.
-  std::size_t size_ = 0;
+  std::uint32_t size_ = 0;
+  bool certain_ = false;
   std::array<std::uint32_t, kFew> few_{};
   std::vector<std::uint32_t> many_;  // in place of the few, where there are more
 };

@@ -57,4 +57,62 @@ template <class D>
   return mask_bits<D>(square >= least * least && square <= most * most);
 }
 
+// How far a triangle T must be inset to keep away from others. Of T's points with barycentric weights of at least m, along
+// an axis a,
+//   a . p >= low + m gain, low the least of its three corners' a . v, gain = sum - 3 low
+// and another triangle's a . o <= high. Where the difference is more than the room, the two are apart: the least such m
+// of some axes. What is on T's far side of an edge is told by the edge's normal, what shares an edge or a corner and rises
+// from there by its own normal, what lies above or below by T's. Any axis will do, so its own rounding is none; that of
+// products and of corners relative to T's is below 2^-46 of what is near, and the room is greater than that by far.
+template <class D>
+class InsetFilter {
+ public:
+  InsetFilter(const Corners& own, double room) : origin_(own.v0), room_(room) {
+    const std::array<glm::dvec3, 3> v{glm::dvec3(0), own.v1 - own.v0, own.v2 - own.v0};
+    low_ = glm::min(own.v0, glm::min(own.v1, own.v2)) - 2 * room;
+    high_ = glm::max(own.v0, glm::max(own.v1, own.v2)) + 2 * room;
+    const glm::dvec3 n = glm::cross(v[1], v[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      own_[k] = lanes(v[k]);
+      axes_[k] = glm::cross(n, v[(k + 1) % 3] - v[k]);
+    }
+    axes_[3] = n;
+    axes_[4] = -n;
+  }
+
+  // The box in which others matter.
+  const glm::dvec3& low() const { return low_; }
+  const glm::dvec3& high() const { return high_; }
+
+  // For each of the triangles from `leaf` on, 1 where none is enough.
+  D operator()(const double* leaf, std::uint32_t count) const {
+    const auto corner = [&](std::uint32_t k) {
+      const double* row = leaf + 3 * k * count;
+      return Vec3<D>{load<D>(row) - D(origin_.x), load<D>(row + count) - D(origin_.y),
+                     load<D>(row + 2 * count) - D(origin_.z)};
+    };
+    const Vec3<D> v0 = corner(0), v1 = corner(1), v2 = corner(2);
+    const auto along = [&](const Vec3<D>& axis) __attribute__((always_inline)) {
+      const D a = dot(axis, own_[0]), b = dot(axis, own_[1]), c = dot(axis, own_[2]);
+      const D high = lane_max<D>(dot(axis, v0), lane_max<D>(dot(axis, v1), dot(axis, v2)));
+      const D low = lane_min<D>(a, lane_min<D>(b, c)), gain = ((a + b) + c) - D(3) * low;
+      const D need = D(room_) * size_of(axis) - (low - high);
+      const Mask<D> enough = gain > D(3) * need;
+      return select<D>(need < D(0), D(0), select<D>(enough, need / select<D>(enough, gain, D(1)), D(1)));
+    };
+    const Vec3<D> n = cross(v1 - v0, v2 - v0);
+    D inset = lane_min<D>(along(n), along(Vec3<D>{-n.x, -n.y, -n.z}));
+    for (const glm::dvec3& axis : axes_) inset = lane_min<D>(inset, along(lanes(axis)));
+    return inset;
+  }
+
+ private:
+  static Vec3<D> lanes(const glm::dvec3& v) { return {D(v.x), D(v.y), D(v.z)}; }
+
+  glm::dvec3 origin_, low_, high_;
+  double room_;
+  std::array<Vec3<D>, 3> own_;
+  std::array<glm::dvec3, 5> axes_;
+};
+
 }  // namespace sidelight::raytrace

@@ -2,6 +2,8 @@
 // What the tracer keeps of a scene between frames, and the questions it asks of it.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -29,11 +31,17 @@ class Prepared {
   std::vector<std::uint32_t> planes;   // primitive numbers: infinite, so met one by one
   std::vector<std::uint32_t> solids;   // objects that bound a medium; empty where refraction is off
   std::vector<Bounds> bounds;          // of each solid
+  std::vector<std::uint8_t> shuts_in;  // of each solid: whether no ray escapes it (enclosed.h)
   std::vector<std::uint8_t> secluded;  // of each sphere: whether it is a solid and is_secluded()
   double reach = 0;  // greatest coordinate of all that can be met; of planes, of their points
 
   // The same, and of `origin`.
   double reach_from(const glm::dvec3& origin) const { return std::max(reach, max_norm(origin)); }
+
+  // Where in `solids` an object stands that is one of them.
+  std::size_t place_of(std::uint32_t solid) const {
+    return static_cast<std::size_t>(std::lower_bound(solids.begin(), solids.end(), solid) - solids.begin());
+  }
 
   template <class Real>
   const ShadingTablesOf<Real>& tables_in() const {
@@ -56,6 +64,11 @@ Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCoun
 // The same where of one primitive, `known`, it is known that its hit, if it has one, is `own`: it is not asked.
 Hit nearest_beside(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t known,
                    const Hit& own, SignCounts& counts, Isa isa);
+
+// The same for many rays, neighbours of which should have much the same way: `best` of each question, its own hit at
+// first, becomes the nearest.
+struct RayQuestion;
+void nearest_beside(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts, Isa isa);
 
 // Something that casts shadows and stands between the ray's origin and the light; not found() if nothing does. For a
 // point light the ray's direction is light - origin and the light is at t = 1; for a directional one (light ==

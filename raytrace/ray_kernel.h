@@ -3,10 +3,12 @@
 // kernels_scalar.cpp, kernels_avx2.cpp and kernels_avx512.cpp.
 #pragma once
 
+#include "raytrace/bundle_kernel.h"
 #include "raytrace/bvh_kernel.h"
 #include "raytrace/kernels.h"
 #include "raytrace/leaf_kernel.h"
 #include "raytrace/near_kernel.h"
+#include "raytrace/optics_kernel.h"
 
 namespace sidelight::raytrace {
 
@@ -93,6 +95,61 @@ template <class F, class D>
   });
 }
 
+// Of the primitives of one kind.
+template <class F, class Filter, int kRows>
+[[gnu::always_inline]] inline void nearest_of_bundle(const Prepared& prepared, const Leaves<kRows>& leaves,
+                                                     std::span<RayQuestion> questions,
+                                                     const std::array<Filter, Bundle::kCapacity>& filters,
+                                                     SignCounts& counts) {
+  Bundle bundle;
+  for (std::size_t r = 0; r < questions.size(); ++r) {
+    const RayQuestion& question = questions[r];
+    bundle.rays[r] = box_ray<F>(leaves.bvh, question.ray.origin, question.ray.direction);
+    bundle.least[r] = bundle.rays[r].least(question.after.t);
+    bundle.limit[r] = bundle.rays[r].limit(question.best.t);
+  }
+  const std::uint32_t all = (1u << questions.size()) - 1;
+  counts.nodes +=
+      walk<F>(leaves.bvh, bundle, all, [&](std::uint32_t first, std::uint32_t count, std::size_t r) {
+        RayQuestion& question = questions[r];
+        const double* leaf = leaves.leaf(first);
+        const LeafVerdict verdict = filters[r](leaf, count, question.best.t);
+        const auto dropped = count - static_cast<std::uint32_t>(std::popcount(verdict.may));
+        counts.tests += dropped;
+        counts.filtered += 3 * dropped;
+        for (std::uint32_t bits = verdict.may; bits != 0; bits &= bits - 1) {
+          const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
+          const Candidate<kRows> candidate{leaves.bvh.items[first + i], leaf + i, count,
+                                           (verdict.must >> i & 1) != 0};
+          if (candidate.primitive == question.except) continue;
+          const Hit hit = candidate.hit(prepared.scene, question.ray, question.after, counts);
+          if (hit.found() && before(hit, question.best)) question.best = hit;
+          bundle.limit[r] = bundle.rays[r].limit(question.best.t);
+        }
+      });
+}
+
+template <class F, class D>
+[[gnu::flatten]] void nearest_of_in_lanes(const Prepared& prepared, std::span<RayQuestion> questions,
+                                          SignCounts& counts) {
+  const TriangleLeaves& triangles = prepared.triangles;
+  const SphereLeaves& spheres = prepared.spheres;
+  for (std::size_t at = 0; at < questions.size(); at += Bundle::kCapacity) {
+    const auto some = questions.subspan(at, std::min(Bundle::kCapacity, questions.size() - at));
+    if (!triangles.bvh.nodes.empty()) {
+      std::array<TriangleFilter<D>, Bundle::kCapacity> filters;
+      for (std::size_t r = 0; r < some.size(); ++r) filters[r] = TriangleFilter<D>(some[r].ray);
+      nearest_of_bundle<F>(prepared, triangles, some, filters, counts);
+    }
+    if (!spheres.bvh.nodes.empty()) {
+      std::array<SphereFilter<D>, Bundle::kCapacity> filters;
+      for (std::size_t r = 0; r < some.size(); ++r)
+        filters[r] = SphereFilter<D>(some[r].ray, spheres.bvh.reach);
+      nearest_of_bundle<F>(prepared, spheres, some, filters, counts);
+    }
+  }
+}
+
 template <class F, class D>
 [[gnu::flatten]] Hit blocker_in_lanes(const Prepared& prepared, const Ray& ray, const glm::dvec3* light,
                                       const Hit& start, SignCounts& counts) {
@@ -128,7 +185,8 @@ template <class F, class D>
 template <class F, class D, int kRows>
 [[gnu::always_inline]] inline void ask_leaves_near(const Leaves<kRows>& leaves,
                                                    const NearQuestion& question) {
-  walk_near<F>(leaves.bvh, question.point, question.distance, [&](std::uint32_t first, std::uint32_t count) {
+  const glm::dvec3 low = question.point - question.distance, high = question.point + question.distance;
+  walk_near<F>(leaves.bvh, low, high, [&](std::uint32_t first, std::uint32_t count) {
     const std::uint32_t* items = leaves.bvh.items.data() + first;
     std::uint32_t others = 0, bits = 0;
     for (std::uint32_t i = 0; i < count; ++i) others |= std::uint32_t{items[i] != question.except} << i;
@@ -154,8 +212,25 @@ template <class F, class D>
 }
 
 template <class F, class D>
-inline constexpr Kernels kKernels{nearest_in_lanes<F, D>,        blocker_in_lanes<F, D>,
-                                  candidates_in_lanes<F, D>,     visit_leaves_in_lanes<F, D>,
-                                  near_triangles_in_lanes<F, D>, near_spheres_in_lanes<F, D>};
+[[gnu::flatten]] double inset_in_lanes(const TriangleLeaves& leaves, const InsetQuestion& question) {
+  const InsetFilter<D> filter(question.corners, question.room);
+  double inset = 0;
+  walk_near<F>(leaves.bvh, filter.low(), filter.high(), [&](std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>) {
+      alignas(64) std::array<double, kLanes<D>> beside;
+      store<D>(filter(leaves.leaf(first) + lane, count), beside.data());
+      for (std::uint32_t i = lane; i < std::min<std::uint32_t>(count, lane + kLanes<D>); ++i)
+        if (leaves.bvh.items[first + i] != question.except) inset = lane_max(inset, beside[i - lane]);
+    }
+    return inset < 1;
+  });
+  return inset;
+}
+
+template <class F, class D>
+inline constexpr Kernels kKernels{
+    nearest_in_lanes<F, D>,      nearest_of_in_lanes<F, D>,   blocker_in_lanes<F, D>,
+    candidates_in_lanes<F, D>,   visit_leaves_in_lanes<F, D>, near_triangles_in_lanes<F, D>,
+    near_spheres_in_lanes<F, D>, inset_in_lanes<F, D>,        directions_in_lanes<D>};
 
 }  // namespace sidelight::raytrace

@@ -8,7 +8,7 @@
 namespace sidelight::raytrace {
 
 Departures departures(const Prepared& prepared, const Path& path, const Hit& hit, const Surface& surface,
-                      const glm::dvec3& from, SignCounts& counts, bool lone) {
+                      const glm::dvec3& from, SignCounts& counts) {
   const Scene& scene = prepared.scene;
   const Material& material = scene.materials[surface.material];
   const glm::dvec3 c2 = reflect_of(scene, material), c3 = refract_of(scene, material);
@@ -32,9 +32,8 @@ Departures departures(const Prepared& prepared, const Path& path, const Hit& hit
     refracted.start = hit;
   } else {
     refracted.kind = RayKind::refracted;
-    refracted.media = lone ? media_behind_lone(prepared, surface.object, surface.entering, path.media)
-                           : media_behind(prepared, path.ray, hit, surface, path.media, counts);
-    const double eta = path.media.ior(scene) / refracted.media.ior(scene);
+    refracted.media = media_behind(prepared, path.ray, hit, surface, path.media, counts);
+    const double eta = relative_ior(scene, path.media, refracted.media);
     const std::optional<glm::dvec3> t = refract_direction(d, surface.normal, surface.facing, eta);
     if (!t) {  // total internal reflection: one ray carries both weights
       mirrored.kind = RayKind::internally_reflected;
@@ -52,7 +51,7 @@ Departures departures(const Prepared& prepared, const Path& path, const Hit& hit
 
 bool send(const Scene& scene, const glm::dvec3& c, Path& path) {
   path.weight *= largest(c);
-  if (path.depth >= scene.trace.depth || path.weight < scene.trace.contribution_cut) return false;
+  if (!is_sent(scene, path.depth, path.weight)) return false;
   ++path.depth;
   return true;
 }

@@ -35,9 +35,19 @@ inline glm::dvec3 refract_of(const Scene& scene, const Material& material) {
 
 // The secondary rays that `path` gives rise to where it met `hit`, at `surface`; they start at `from`
 // (leaving_point). Of the surface object, material, normal, facing, entering and together are read. Depth and weight are
-// still those of `path`. `lone`: whether the hit is known to be lone (lone_hit.h).
+// still those of `path`.
 Departures departures(const Prepared& prepared, const Path& path, const Hit& hit, const Surface& surface,
-                      const glm::dvec3& from, SignCounts& counts, bool lone = false);
+                      const glm::dvec3& from, SignCounts& counts);
+
+// eta of Snell's law.
+inline double relative_ior(const Scene& scene, const Media& before, const Media& behind) {
+  return before.ior(scene) / behind.ior(scene);
+}
+
+// Whether a ray is sent that would be the next one on a path of this depth, its own weight taken in.
+inline bool is_sent(const Scene& scene, int depth, double weight) {
+  return depth < scene.trace.depth && !(weight < scene.trace.contribution_cut);
+}
 
 // Takes c into the ray's weight, and the ray a step deeper if it is sent; false where it is too deep or weighs too
 // little.

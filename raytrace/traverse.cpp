@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "common/model/visibility_float.h"
+#include "raytrace/enclosed.h"
 #include "raytrace/kernels.h"
 #include "raytrace/lone_hit.h"
 
@@ -65,6 +66,18 @@ Hit blocker_in_float(const Prepared& prepared, const Ray& ray, const glm::dvec3*
   return found;
 }
 
+// `own`, or the hit of a plane but `known` that comes before it.
+Hit nearest_plane(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t known,
+                  const Hit& own, SignCounts& counts) {
+  Hit best = own;
+  for (const std::uint32_t primitive : prepared.planes) {
+    if (primitive == known) continue;
+    const Hit hit = intersect(prepared.scene, primitive, ray, after, counts);
+    if (hit.found() && before(hit, best)) best = hit;
+  }
+  return best;
+}
+
 }  // namespace
 
 Prepared::Prepared(const Scene& s, const Needs& n, int threads)
@@ -86,6 +99,7 @@ Prepared::Prepared(const Scene& s, const Needs& n, int threads)
     if (scene.objects[i].solid) {
       solids.push_back(i);
       bounds.push_back(bounds_of(scene, scene.objects[i]));
+      shuts_in.push_back(raytrace::shuts_in(scene, scene.objects[i]));
     }
   for (const std::uint32_t solid : solids)
     if (const Object& object = scene.objects[solid]; object.kind == ObjectKind::sphere)
@@ -104,15 +118,23 @@ Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCoun
 
 Hit nearest_beside(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t known,
                    const Hit& own, SignCounts& counts, Isa isa) {
-  Hit best = own;
-  if (!is_finite(ray)) return best;
-  for (const std::uint32_t primitive : prepared.planes) {
-    if (primitive == known) continue;
-    const Hit hit = intersect(prepared.scene, primitive, ray, after, counts);
-    if (hit.found() && before(hit, best)) best = hit;
-  }
+  if (!is_finite(ray)) return own;
+  Hit best = nearest_plane(prepared, ray, after, known, own, counts);
   kernels_for(isa).nearest(prepared, ray, after, known, best, counts);
   return best;
+}
+
+void nearest_beside(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts, Isa isa) {
+  bool all_finite = true;
+  for (RayQuestion& question : questions) {
+    const auto& [ray, after, known, own] = question;
+    all_finite &= is_finite(ray);
+    if (is_finite(ray)) question.best = nearest_plane(prepared, ray, after, known, own, counts);
+  }
+  if (all_finite) return kernels_for(isa).nearest_of(prepared, questions, counts);
+  for (RayQuestion& question : questions)  // one by one, then
+    if (const auto& [ray, after, known, own] = question; is_finite(ray))
+      kernels_for(isa).nearest(prepared, ray, after, known, question.best, counts);
 }
 
 Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,

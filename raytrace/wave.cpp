@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "common/picture/tile_pixels.h"
+#include "common/scene/primitive_finder.h"
 
 namespace sidelight::raytrace {
 
@@ -13,7 +14,6 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
     : prepared_(prepared),
       scene_(prepared.scene),
       camera_(camera),
-      eye_media_(eye_media),
       isa_(options.isa),
       primary_(options.primary),
       secondary_(prepared.needs[Need::mirrors] || prepared.needs[Need::refraction]),
@@ -23,7 +23,10 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
       want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples),
       eye_packets_(prepared, camera, options.isa),
-      shadow_packets_(prepared, options.isa) {
+      shadow_packets_(prepared, options.isa),
+      enclosures_(prepared),
+      clearings_(prepared, options.isa) {
+  eye_path_.media = eye_media;
   farthest_alone_ = 16 * eye_packets_.reach() / eye_packets_.ray_length();
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
     surfaces_[static_cast<std::size_t>(kind)].kind = kind;
@@ -81,8 +84,12 @@ bool Wave::take_part(std::size_t depth) {
 }
 
 void Wave::begin(const Rect& pixels) {
-  if (pixels.width() != pixels_.width() || pixels.height() != pixels_.height())
-    order_ = EyePackets::order(camera_.n * pixels.width(), camera_.n * pixels.height());
+  if (pixels.width() != pixels_.width() || pixels.height() != pixels_.height()) {
+    const auto width = static_cast<std::uint32_t>(camera_.n * pixels.width());
+    order_.clear();
+    for (const std::uint32_t i : EyePackets::order(camera_.n * pixels.width(), camera_.n * pixels.height()))
+      order_.push_back({i, static_cast<std::uint16_t>(i % width), static_cast<std::uint16_t>(i / width)});
+  }
   pixels_ = pixels;
   if (levels_.empty()) levels_.resize(1);
   const auto size_if = [&](auto& array, bool wanted) {
@@ -101,12 +108,10 @@ Ray Wave::ray_of(const Level& level, std::size_t ray) const {
   return {camera_.eye, camera_.direction(X, Y)};
 }
 
-Path Wave::path_of(const Level& level, std::size_t ray) const {
+const Path& Wave::path_of(const Level& level, std::size_t ray) {
   if (!level.rays.empty()) return level.rays[ray].path;
-  Path path;
-  path.ray = ray_of(level, ray);
-  path.media = eye_media_;
-  return path;
+  eye_path_.ray = ray_of(level, ray);
+  return eye_path_;
 }
 
 // ---- Hits ----
@@ -136,45 +141,55 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   } else {
     level.hits.resize(size);
     level.alone.assign(size, false);
-    for (std::size_t i = 0; i < size; ++i) level.hits[i] = first_shaded(level.rays[i], level.alone[i], stats);
+    find_first_hits(level, stats);
+    for (std::size_t i = 0; i < size; ++i)
+      level.hits[i] = first_shaded(level.hits[i], level.rays[i], level.alone[i], stats);
   }
   level.color.assign(size, glm::vec3(scene_.background));
   if (!secondary_) return;
   level.mirrored.assign(size, glm::vec3(0));
   level.refracted.assign(size, glm::vec3(0));
-  level.cut_weight.assign(size, 0.0);
+  level.cut_mirrored.assign(size, 0.0);
+  level.cut_refracted.assign(size, 0.0);
 }
 
-// The nearest hit; not that of the surface at which the ray starts and is through.
-Hit Wave::first_hit(const WaveRay& ray, RenderStats& stats) const {
-  const Path& path = ray.path;
-  Hit own;  // a flat surface is not met again, a ball is at its far side
-  if (ray.own != kNone) {
-    const PrimitiveRef ref = primitive_ref(scene_, ray.own);
-    if (ref.kind == ObjectKind::sphere) {
+// The nearest hits; not that of the surface at which a ray starts and is through.
+void Wave::find_first_hits(Level& level, RenderStats& stats) {
+  questions_.clear();
+  asking_.clear();
+  for (std::size_t i = 0; i < level.rays.size(); ++i) {
+    const WaveRay& ray = level.rays[i];
+    const Path& path = ray.path;
+    Hit own;  // a flat surface is not met again, a ball is at its far side
+    if (ray.own != kNone && primitive_ref(scene_, ray.own).kind == ObjectKind::sphere) {
       own = intersect(scene_, ray.own, path.ray, path.start, stats.signs);
       if (ray.passes && own.found()) own = intersect(scene_, ray.own, path.ray, own, stats.signs);
-      if (own.found() && prepared_.secluded[ref.index]) return own;
+      level.hits[i] = own;
+      if (own.found() && prepared_.secluded[primitive_ref(scene_, ray.own).index]) continue;
     }
+    questions_.push_back({path.ray, path.start, ray.own, own});
+    asking_.push_back(static_cast<std::uint32_t>(i));
   }
-  return nearest_beside(prepared_, path.ray, path.start, ray.own, own, stats.signs, isa_);
+  nearest_beside(prepared_, questions_, stats.signs, isa_);
+  for (std::size_t k = 0; k < asking_.size(); ++k) level.hits[asking_[k]] = questions_[k].best;
 }
 
-// The first hit of a secondary ray that is not just a surface inside of a medium that goes on behind it.
-Hit Wave::first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) const {
+// From the first hit of a secondary ray on: the first that is not just a surface inside of a medium that goes on behind
+// it.
+Hit Wave::first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats) {
   Path& path = ray.path;
-  for (Hit hit = first_hit(ray, stats);;
-       hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
+  for (;; hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
     alone = false;
     if (!hit.found() || prepared_.solids.empty()) return hit;
     const std::uint32_t object = scene_.primitive_object[hit.primitive];
     if (!scene_.objects[object].solid) return hit;
-    const Lone lone = lone_hit(prepared_, path.ray, hit, isa_);
-    alone = lone != Lone::unknown;
+    const Lone lone = lone_hit(prepared_, path.ray, hit, isa_, &clearings_);
+    alone = static_cast<std::uint8_t>(lone);
     const Media behind =
-        alone ? media_behind_lone(prepared_, object, lone == Lone::entering, path.media)
-              : media_behind(prepared_, path.ray, hit, surface_at(scene_, path.ray, hit, stats.signs),
-                             path.media, stats.signs);
+        lone != Lone::unknown
+            ? media_behind_lone(prepared_, object, lone == Lone::entering, path.media)
+            : media_behind(prepared_, path.ray, hit, surface_at(scene_, path.ray, hit, stats.signs),
+                           path.media, stats.signs);
     if (behind.current() != path.media.current()) return hit;
     path.media = behind;
   }
@@ -195,24 +210,27 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     batch.has_t = !eye || primary_;
     batch.want_t = eye && !primary_ && (want_t_ || batch.want_leaving);
   }
+  // Steps of column and row are whole numbers, exact.
+  const double first_column = camera_.column_factor(camera_.n * pixels_.x0);
+  const double first_row = camera_.row_factor(camera_.n * pixels_.y0);
+  PrimitiveFinder find(scene_);
   for (std::size_t k = 0; k < level.hits.size(); ++k) {
-    const std::size_t i = eye ? order_[k] : k;
+    const std::size_t i = eye ? order_[k].number : k;
     const Hit& hit = level.hits[i];
     if (!hit.found()) continue;
-    SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(primitive_ref(scene_, hit.primitive).kind)];
+    SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(find(hit.primitive).kind)];
     const auto entry = static_cast<std::size_t>(batch.size);
     batch.t[entry] = hit.t;
+    batch.primitive[entry] = hit.primitive;
     batch.sample[entry] = static_cast<std::uint32_t>(i);
     if (eye) {
-      const auto X = camera_.n * pixels_.x0 + static_cast<int>(i % columns());
-      const auto Y = camera_.n * pixels_.y0 + static_cast<int>(i / columns());
-      batch.add(camera_.column_factor(X), camera_.row_factor(Y), &hit.primitive, 1);
+      batch.column[entry] = first_column + 2 * order_[k].column;
+      batch.row[entry] = first_row - 2 * order_[k].row;
     } else {
-      const Ray& ray = level.rays[i].path.ray;
-      put(batch.origin, entry, ray.origin);
-      put(batch.direction, entry, ray.direction);
-      batch.add(0, 0, &hit.primitive, 1);
+      put(batch.origin, entry, level.rays[i].path.ray.origin);
+      put(batch.direction, entry, level.rays[i].path.ray.direction);
     }
+    ++batch.size;
     if (batch.room() == 0) flush(level, batch, eye, stats);
   }
   for (SurfaceBatch& batch : surfaces_) flush(level, batch, eye, stats);
@@ -248,25 +266,38 @@ void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& st
   surfaces.size = 0;
 }
 
-void Wave::find_leaving_points(const Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
-                               RenderStats& stats) const {
+// Whether there is nothing to search for near the hit.
+bool Wave::stands_alone(Level& level, std::size_t ray, ObjectKind kind) {
+  if (level.rays.empty())
+    return !level.alone.empty() && level.alone[ray] && level.hits[ray].t < farthest_alone_;
+  if (level.alone[ray] || kind != ObjectKind::mesh) return level.alone[ray];
+  const Hit& hit = level.hits[ray];
+  const bool clear = is_clear(prepared_, level.rays[ray].path.ray, hit, clearings_);
+  // On a solid the ray grazes, or lone_hit() would have said so: no reason to call it lone.
+  level.alone[ray] = clear && !scene_.objects[scene_.primitive_object[hit.primitive]].solid;
+  return clear;
+}
+
+void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
+                               RenderStats& stats) {
   batch.normal = surfaces.normal;
   batch.facing = surfaces.facing;
   batch.clearance = surfaces.clearance;
-  const bool eye = level.rays.empty();
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
     Place place;
     place.point = get(surfaces.point, i);
     place.facing = get(surfaces.facing, i);
     place.clearance = surfaces.clearance[i];
+    const glm::dvec3 above = place.point + place.clearance * place.facing;  // leaving_point() of nothing near
+    batch.plain[i] = true;
+    put(batch.from, i, above);
+    if (stands_alone(level, batch.ray[i], batch.kind)) continue;
     const Hit& hit = level.hits[batch.ray[i]];
-    if (!level.alone.empty() && level.alone[batch.ray[i]] && (!eye || hit.t < farthest_alone_)) {
-      put(batch.from, i, place.point + place.clearance * place.facing);  // leaving_point() of nothing near
-      continue;
-    }
     const Ray ray = ray_of(level, batch.ray[i]);
     place.together = together_depth(ray, hit, place);
-    put(batch.from, i, leaving_point(prepared_, ray, hit, place, stats.signs, isa_));
+    const glm::dvec3 from = leaving_point(prepared_, ray, hit, place, stats.signs, isa_);
+    batch.plain[i] = from == above;
+    put(batch.from, i, from);
   }
 }
 

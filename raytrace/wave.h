@@ -11,8 +11,12 @@
 
 #include "common/model/surface_batch.h"
 #include "common/picture/frame.h"
+#include "raytrace/clearings.h"
+#include "raytrace/enclosed.h"
 #include "raytrace/eye_packets.h"
+#include "raytrace/kernels.h"
 #include "raytrace/lone_hit.h"
+#include "raytrace/optics_batch.h"
 #include "raytrace/secondary.h"
 #include "raytrace/shadow_packets.h"
 
@@ -25,6 +29,7 @@ struct HitBatch {
   SurfaceBatch::Channel<std::uint32_t> ray, material;  // the ray's number in its level
   SurfaceBatch::Vectors from, normal, facing;          // leaving_point, N and Nv, where rays leave
   SurfaceBatch::Channel<double> clearance;             // Place::clearance, likewise
+  SurfaceBatch::Channel<std::uint8_t> plain;  // rays leave straight above the point: no wall is in the way
   LitBatch lit;
   ShadingBatch::Rgb light{}, missing{};  // sums of T_i, c1 left out: of lights that are seen, that are not
 };
@@ -39,17 +44,25 @@ struct WaveRay {
   bool passes = false;  // at its start it crosses that primitive and no other, without a change of medium
 };
 
+// What is known of a hit that sends rays before their directions are found.
+struct Sender {
+  std::size_t entry = 0;  // of its batch
+  Lone lone = Lone::unknown;
+  bool entering = false;  // of a solid that refracts: whether the ray does
+  Media behind;           // likewise
+};
+
 // Rays of one depth that are traced together. Numbers are those of the rays; of the eye's level, of the tile's samples
 // row by row.
 struct Level {
   std::vector<WaveRay> rays;     // none at the eye's level: those are the camera's
   std::vector<WaveRay> waiting;  // rays of this depth whose turn comes later
   std::vector<Hit> hits;
-  // Nothing else stands near the hit, where that is known: of the eye's level by EyePackets; of the others, of hits on
-  // solids, by lone_hit().
+  // Nothing else stands near the hit, where that is known: of the eye's level by EyePackets; of the others by is_clear()
+  // or, of hits on solids, by lone_hit(): then as it says.
   std::vector<std::uint8_t> alone;
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
-  std::vector<double> cut_weight;                     // likewise
+  std::vector<double> cut_mirrored, cut_refracted;    // likewise: weights not sent there, and below
 };
 
 // Whether the ray comes from the outward side, Nv being `facing`: as locate() has it.
@@ -71,7 +84,7 @@ class Wave {
 
   std::size_t columns() const { return static_cast<std::size_t>(camera_.n * pixels_.width()); }
   std::size_t samples() const { return columns() * static_cast<std::size_t>(camera_.n * pixels_.height()); }
-  Path path_of(const Level& level, std::size_t ray) const;
+  const Path& path_of(const Level& level, std::size_t ray);  // until it is asked for the next one
   Ray ray_of(const Level& level, std::size_t ray) const;
 
   void begin(const Rect& pixels);
@@ -79,45 +92,62 @@ class Wave {
   void trace_level(std::size_t depth, RenderStats& stats);
   bool take_part(std::size_t depth);
   void find_hits(Level& level, bool eye, RenderStats& stats);
-  Hit first_hit(const WaveRay& ray, RenderStats& stats) const;
-  Hit first_shaded(WaveRay& ray, std::uint8_t& alone, RenderStats& stats) const;
+  void find_first_hits(Level& level, RenderStats& stats);
+  Hit first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats);
   void find_surfaces(Level& level, bool eye, RenderStats& stats);
   void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
-  void find_leaving_points(const Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
-                           RenderStats& stats) const;
+  void find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch, RenderStats& stats);
+  bool stands_alone(Level& level, std::size_t ray, ObjectKind kind);
   void add_lights(const Level& level, RenderStats& stats);
   void find_shadows(std::size_t light, RenderStats& stats);
   ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
+  std::size_t enclosing_solid(const Level& level, const HitBatch& batch, std::size_t i) const;
   void add_lights_of(HitBatch& batch) const;
   void sum_up(Level& level, bool eye);
-  Surface surface_of(const Level& level, const HitBatch& batch, std::size_t i, const Ray& ray,
-                     bool lone) const;
-  bool is_lone(const Level& level, std::size_t ray, const Ray& way) const;
-  void send_secondary(Level& level, Level& next, RenderStats& stats) const;
-  void send_from(Level& level, const HitBatch& batch, std::size_t i, const Path& path, Level& next,
-                 RenderStats& stats) const;
+  void send_secondary(Level& level, Level& next, RenderStats& stats);
+  void find_senders(Level& level, const HitBatch& batch, RenderStats& stats);
+  void find_behind(const Level& level, const HitBatch& batch, const Path& path, Sender& sender,
+                   SignCounts& counts);
+  bool is_total(std::size_t k) const {  // reflection at entry k of optics_
+    return optics_.eta[k] != OpticsBatch::kNoRefraction && optics_.total[k] != 0;
+  }
+  WaveRay* send(Level& level, std::uint32_t parent, const glm::dvec3& c, RayKind kind, Level& next,
+                RenderStats& stats);
+  void send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
+  void send_transmitted(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
   void bring_back(const Level& level, Level& parent) const;
   HitBatch& next_batch();
 
   const Prepared& prepared_;
   const Scene& scene_;
   const Camera& camera_;
-  const Media& eye_media_;
   Isa isa_;
   const Frame* primary_;      // RenderOptions::primary
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;
-  std::vector<std::uint32_t> order_;  // of the eye's hits: block by block, as packets are
+  Path eye_path_;  // of the eye's ray that was asked for last
+  // Of the eye's hits, block by block, as packets are; the sample's column and row in the tile.
+  struct EyeSample {
+    std::uint32_t number = 0;
+    std::uint16_t column = 0, row = 0;
+  };
+  std::vector<EyeSample> order_;
   EyePackets eye_packets_;
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
   ShadowPackets shadow_packets_;
-  std::vector<ShadowQuery> queries_;   // of entry i of batch b: [b kCapacity + i]
-  std::vector<std::uint32_t> asking_;  // those that ask a light
+  Enclosures enclosures_;
+  Clearings clearings_;
+  std::vector<ShadowQuery> queries_;    // of entry i of batch b: [b kCapacity + i]
+  std::vector<std::size_t> enclosing_;  // likewise: the solid around it, or Enclosures::kNone
+  std::vector<RayQuestion> questions_;
+  std::vector<std::uint32_t> asking_;  // which ask a light, or are the rays of questions_
   std::vector<std::uint8_t> dark_;
   std::vector<Level> levels_;
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind
   ShadingBatch shading_;
+  OpticsBatch optics_;
+  std::array<Sender, OpticsBatch::kCapacity> senders_;  // entry by entry
   std::vector<HitBatch> batches_;  // of the level that is worked at, the first used_ of them
   std::size_t used_ = 0;
   // Of the eye's level, where they are wanted.

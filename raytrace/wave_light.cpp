@@ -13,9 +13,13 @@ glm::vec3 rgb(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 
 void Wave::add_lights(const Level& level, RenderStats& stats) {
   queries_.resize(used_ * ShadingBatch::kCapacity);
+  enclosing_.resize(queries_.size());
   for (std::size_t b = 0; b < used_; ++b)
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
-      queries_[b * ShadingBatch::kCapacity + i] = shadow_query(level, batches_[b], i);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i) {
+      const std::size_t query = b * ShadingBatch::kCapacity + i;
+      queries_[query] = shadow_query(level, batches_[b], i);
+      enclosing_[query] = enclosing_solid(level, batches_[b], i);
+    }
   for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) find_shadows(light, stats);
   for (std::size_t b = 0; b < used_; ++b) add_lights_of(batches_[b]);
 }
@@ -29,21 +33,31 @@ ShadowQuery Wave::shadow_query(const Level& level, const HitBatch& batch, std::s
   return query;
 }
 
+// Not of eye rays, most of which travel in the open.
+std::size_t Wave::enclosing_solid(const Level& level, const HitBatch& batch, std::size_t i) const {
+  if (level.rays.empty()) return Enclosures::kNone;
+  const std::uint32_t ray = batch.ray[i];
+  return enclosures_.around(get(batch.from, i), level.rays[ray].path.media, level.alone[ray]);
+}
+
 // Where a shadow ray is blocked, the light's state becomes that of a surface in its own light: b_i = 0.
 void Wave::find_shadows(std::size_t light, RenderStats& stats) {
   const Light& source = scene_.lights[light];
   asking_.resize(queries_.size());
   std::size_t asking = 0;
   for (std::size_t b = 0; b < used_; ++b) {
-    const ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
+    ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
     for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i) {
-      asking_[asking] = static_cast<std::uint32_t>(b * ShadingBatch::kCapacity + i);
-      asking += state[i] == LightTerms::kAsk;
+      const std::size_t query = b * ShadingBatch::kCapacity + i;
+      const bool asks = state[i] == LightTerms::kAsk, hidden = enclosures_.hide(enclosing_[query], light);
+      asking_[asking] = static_cast<std::uint32_t>(query);
+      asking += asks && !hidden;
+      stats.rays.shadow += asks;
       stats.self_shadowed += state[i] == LightTerms::kSelfShadowed;
+      if (asks && hidden) state[i] = LightTerms::kSelfShadowed;
     }
   }
   asking_.resize(asking);
-  stats.rays.shadow += asking;
   if (source.directional) {
     dark_.clear();
     for (const std::uint32_t hit : asking_)

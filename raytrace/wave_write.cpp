@@ -17,7 +17,9 @@ void Wave::write(Frame& frame, std::vector<double>& cut) const {
   tile.write_means(eye.mirrored, frame, frame.layer(Layer::reflection));
   tile.write_means(eye.refracted, frame, frame.layer(Layer::refraction));
   tile.for_each_pixel(frame, [&](std::size_t pixel, std::size_t first) {
-    tile.for_each_sample(first, [&](std::size_t sample) { cut[pixel] += eye.cut_weight[sample]; });
+    tile.for_each_sample(first, [&](std::size_t sample) {
+      cut[pixel] += eye.cut_mirrored[sample] + eye.cut_refracted[sample];
+    });
   });
 }
 

@@ -34,7 +34,6 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
     recorder_.passed(hit);
   }
   out.object = surface.object;
-  out.normal = glm::vec3(surface.normal);
 
   const bool secondary = prepared_.needs[Need::mirrors] || prepared_.needs[Need::refraction];
   glm::dvec3 from{0};  // where rays start that leave
@@ -53,6 +52,7 @@ void Whitted<Real, Recorder>::add_local(const Surface& surface, const Ray& ray, 
                                         Traced<Real>& out) {
   const Vec3<Real>& c1 = tables_.materials[surface.material].local;
   const ShadingPoint<Real> point = shading_point(tables_, surface, ray);
+  out.normal = {point.normal.x, point.normal.y, point.normal.z};
   const Vec3<Real> ambient = ambient_term<Real>(point, tables_.ambient_light);
   recorder_.surface(out.hit, surface, c1, ambient);
   Vec3<Real> light = ambient, shadow{}, diffuse{}, specular{};

@@ -40,6 +40,18 @@ using Mask = typename LaneTraits<F>::Mask;
 template <class F>
 inline constexpr int kLanes = LaneTraits<F>::kCount;
 
+// Lanes of floats in as many bytes as F, lanes of doubles, has; twice as many.
+template <class F>
+struct FloatLanesOf {
+  using Type = float;
+};
+template <class Abi>
+struct FloatLanesOf<stdx::simd<double, Abi>> {
+  using Type = stdx::simd<float, Abi>;
+};
+template <class F>
+using FloatLanes = typename FloatLanesOf<F>::Type;
+
 template <class F>
 F select(const Mask<F>& mask, const F& if_true, const F& if_false) {
   if constexpr (kLanes<F> == 1) {

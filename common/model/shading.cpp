@@ -37,6 +37,15 @@ Split<T> split(const glm::dvec3& v) {
   return {high, rounded<T>(v - glm::dvec3(high.x, high.y, high.z))};
 }
 
+// Of unit length, in T.
+template <class T>
+Vec3<T> unit_rounded(const glm::dvec3& v) {
+  const auto plain = [](const T& length2) { return length2 >= T(kLeastPlain) && length2 <= T(kMostPlain); };
+  Vec3<T> direction = rounded<T>(v);
+  if (!plain(dot(direction, direction))) direction = rounded<T>(glm::normalize(v / max_norm(v)));
+  return (T(1) / std::sqrt(dot(direction, direction))) * direction;
+}
+
 template <class T>
 ShadingLight<T> shading_light(const Light& light, double scale, bool attenuated) {
   ShadingLight<T> out;
@@ -88,9 +97,9 @@ ShadingPoint<T> shading_point(const ShadingTablesOf<T>& tables, const Surface& s
   const Split<T> position = split<T>(tables.length_scale * surface.point);
   return {position.high,
           position.low,
-          rounded<T>(surface.normal),
+          unit_rounded<T>(surface.smooth),
           rounded<T>(surface.facing),
-          rounded<T>(-glm::normalize(ray.direction)),
+          unit_rounded<T>(-ray.direction),
           material.ambient,
           material.diffuse,
           material.specular,

@@ -44,6 +44,9 @@ using ShadingTables = ShadingTablesOf<float>;
 template <class T = float>
 ShadingTablesOf<T> make_shading_tables(const Scene& scene, const Needs& needs);
 
+// Vectors between these squared lengths are given unit length in float as they are, others first in double.
+inline constexpr float kLeastPlain = 0x1p-60f, kMostPlain = 0x1p60f;
+
 // The point as the kernel wants it, seen along `ray`.
 template <class T>
 ShadingPoint<T> shading_point(const ShadingTablesOf<T>& tables, const Surface& surface, const Ray& ray);

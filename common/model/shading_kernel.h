@@ -89,6 +89,7 @@ struct LightLanes {
   static constexpr std::size_t kVectors = BatchMaterials<F>::kVectors;
   std::array<std::array<F, 3>, kVectors> to_light;
   std::array<F, kVectors> cosine, arriving, log;
+  static constexpr float kNone = -std::numeric_limits<float>::infinity();  // the log of no highlight
 };
 
 // The first steps of light_term(), each for all entries.
@@ -110,7 +111,9 @@ void view_light(const ShadingLight<float>& light, const ShadingBatch& batch,
     out.log[v] = below_one<F>(out.cosine[v], vec(out.to_light[v]), load_rgb<F>(batch.normal, i),
                               load_rgb<F>(batch.to_viewer, i));
   }
-  for (std::size_t v = 0; v < vectors; ++v) out.log[v] = log_highlight<F>(out.log[v], materials[v].shininess);
+  for (std::size_t v = 0; v < vectors; ++v)
+    out.log[v] = any<F>(out.log[v] < F(1)) ? log_highlight<F>(out.log[v], materials[v].shininess)
+                                           : F(LightLanes<F>::kNone);
 }
 
 // The last step: the term, but for what only explanations ask for.
@@ -120,8 +123,8 @@ LightTerm<F> light_term_of(const ShadingLight<float>& light, const LightLanes<F>
   const Vec3<F> here = light_here<F>(light, lanes.arriving[v], lanes.cosine[v]);
   LightTerm<F> term;
   term.diffuse = lanes.cosine[v] * (here * vec(materials[v].diffuse));
-  term.specular =
-      (materials.shiny() ? lane_exp<F>(lanes.log[v]) : F(0)) * (here * vec(materials[v].specular));
+  const bool shiny = materials.shiny() && any<F>(lanes.log[v] > F(LightLanes<F>::kNone));
+  term.specular = (shiny ? lane_exp<F>(lanes.log[v]) : F(0)) * (here * vec(materials[v].specular));
   return term;
 }
 

@@ -4,27 +4,31 @@
 namespace sidelight {
 namespace {
 
-// The interpolated vertex normal, unnormalised; zero for flat faces, spheres and planes.
-glm::dvec3 interpolated_normal(const Scene& scene, std::uint32_t primitive, const Place& place) {
-  const PrimitiveRef ref = primitive_ref(scene, primitive);
-  if (ref.kind != ObjectKind::mesh) return glm::dvec3(0);
-  const Triangle& triangle = scene.triangles[ref.index];
-  if (triangle.normal[0] == kNone) return glm::dvec3(0);
-  const auto part = [&](std::size_t k) { return place.barycentric[k] * scene.normals[triangle.normal[k]]; };
-  return (part(0) + part(1)) + part(2);
+// The interpolated vertex normal times `turn` (1 or -1), unnormalised.
+glm::dvec3 interpolated(const Scene& scene, const Triangle& triangle, const Place& place, double turn) {
+  const auto corner = [&](std::size_t k) { return turn * scene.normals[triangle.normal[k]]; };
+  const glm::dvec3 n0 = corner(0);
+  return (n0 + place.barycentric[1] * (corner(1) - n0)) + place.barycentric[2] * (corner(2) - n0);
+}
+
+// N before it has unit length, of a triangle. (A flat one's is interpolated too, in lanes: no zero of it is negative.)
+glm::dvec3 smooth_normal(const Scene& scene, const Triangle& triangle, const Place& place) {
+  if (triangle.normal[0] == kNone) return place.facing + glm::dvec3(0);
+  const double side = glm::dot(interpolated(scene, triangle, place, 1), place.facing);
+  return side == 0 ? place.facing : interpolated(scene, triangle, place, side < 0 ? -1 : 1);
 }
 
 }  // namespace
 
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts) {
-  const Place place = locate(scene, ray, hit, counts);
-  Surface surface{place};
+  Surface surface{locate(scene, ray, hit, counts)};
   surface.object = scene.primitive_object[hit.primitive];
   surface.material = primitive_material(scene, hit.primitive);
-
-  const glm::dvec3 smooth = interpolated_normal(scene, hit.primitive, place);
-  const double side = glm::dot(smooth, surface.facing);  // 0 for a zero normal too
-  surface.normal = side == 0 ? surface.facing : glm::normalize(side < 0 ? -smooth : smooth);
+  surface.normal = surface.smooth = surface.facing;
+  const PrimitiveRef ref = primitive_ref(scene, hit.primitive);
+  if (ref.kind != ObjectKind::mesh) return surface;
+  surface.smooth = smooth_normal(scene, scene.triangles[ref.index], surface);
+  surface.normal = glm::normalize(surface.smooth);
   return surface;
 }
 

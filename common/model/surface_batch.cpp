@@ -10,48 +10,16 @@
 namespace sidelight {
 namespace {
 
-using Group = SurfaceBatch::Group;
+constexpr std::size_t kGroup = SurfaceBatch::kGroup;
 
-Vec3<double> vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+Vec3<double> as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// What the kernel reads of one primitive, into entry i; its material.
-std::uint32_t fetch(const Scene& scene, std::uint32_t index, SurfaceBatch& batch, Group& group,
-                    std::size_t i) {
-  if (batch.kind == ObjectKind::sphere) {
-    const Sphere& sphere = scene.spheres[index];
-    put(batch.vector[0], i, sphere.center);
-    batch.vector[1][0][i] = sphere.radius;
-    return sphere.material;
-  }
-  if (batch.kind == ObjectKind::plane) {
-    const Plane& plane = scene.planes[index];
-    put(batch.vector[0], i, plane.point);
-    put(batch.vector[1], i, plane.normal);
-    return plane.material;
-  }
-  const Triangle& triangle = scene.triangles[index];
-  const bool flat = triangle.normal[0] == kNone;
-  (flat ? group.flat : group.smooth) = true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    put(batch.vector[k], i, scene.positions[triangle.vertex[k]]);
-    put(batch.vector[3 + k], i, flat ? glm::dvec3(0) : scene.normals[triangle.normal[k]]);
-  }
-  return triangle.material;
-}
-
-// Whether all of a group are of one primitive.
-bool is_one(const SurfaceBatch& batch, std::size_t first) {
-  using Numbers = stdx::native_simd<std::uint32_t>;
-  Numbers unlike(0);
-  for (std::size_t i = first; i < first + SurfaceBatch::kGroup; i += Numbers::size())
-    unlike |= load<Numbers>(&batch.primitive[i]) ^ Numbers(batch.primitive[first]);
-  return stdx::all_of(unlike == 0);
-}
+std::size_t whole_groups(int size) { return (static_cast<std::size_t>(size) + kGroup - 1) / kGroup * kGroup; }
 
 // Entries beyond the last, up to a whole group, repeat it, so that lanes are full of what is true somewhere.
 void pad(SurfaceBatch& batch) {
   const auto size = static_cast<std::size_t>(batch.size);
-  for (std::size_t i = size; i % SurfaceBatch::kGroup != 0; ++i) {
+  for (std::size_t i = size; i < whole_groups(batch.size); ++i) {
     batch.column[i] = batch.column[size - 1];
     batch.row[i] = batch.row[size - 1];
     batch.t[i] = batch.t[size - 1];
@@ -64,49 +32,49 @@ void pad(SurfaceBatch& batch) {
   }
 }
 
-void prefetch_group(const Scene& scene, PrimitiveFinder& find, const SurfaceBatch& batch, std::size_t first) {
-  for (std::size_t i = first; i < first + SurfaceBatch::kGroup; ++i)
-    if (i == first || batch.primitive[i] != batch.primitive[i - 1])
-      prefetch_surface(scene, find(batch.primitive[i]));
+// Which entries begin a run. The first numbers of `first` are set.
+void find_runs(SurfaceBatch& batch, std::array<std::uint32_t, SurfaceBatch::kCapacity>& first) {
+  const std::size_t size = whole_groups(batch.size);
+  std::uint32_t run = 0;
+  first[0] = batch.run[0] = 0;
+  for (std::size_t i = 1; i < size; ++i) {
+    run += batch.own_rays || batch.primitive[i] != batch.primitive[i - 1];
+    batch.run[i] = run;
+    first[run] = static_cast<std::uint32_t>(i);
+  }
+  batch.runs = static_cast<int>(run) + 1;
 }
 
-// A group that goes on with the one triangle of the group before shares what was fetched for that.
-void fetch_group(const Scene& scene, const ShadingTables& tables, PrimitiveFinder& find, SurfaceBatch& batch,
-                 ShadingBatch& out, std::size_t first) {
-  constexpr std::size_t kGroup = SurfaceBatch::kGroup;
-  Group& group = batch.group[first / kGroup];
-  group.first = first;
-  if (group.one) {
-    const Group& before = batch.group[first / kGroup - (first > 0 ? 1 : 0)];
-    const bool same = first > 0 && before.one && batch.primitive[first] == batch.primitive[first - 1];
-    if (same) group = before;
-    const std::uint32_t material =
-        same ? out.material[first - 1]
-             : fetch(scene, find(batch.primitive[first]).index, batch, group, first);
-    group.shiny = is_shiny(tables.materials[material]);
-    std::fill_n(&out.material[first], kGroup, material);
-    return;
-  }
-  for (std::size_t i = first; i < first + kGroup; ++i) {
-    out.material[i] = fetch(scene, find(batch.primitive[i]).index, batch, group, i);
-    if (i == first || out.material[i] != out.material[i - 1])
-      group.shiny |= is_shiny(tables.materials[out.material[i]]);
-  }
+std::uint32_t material_of(const Scene& scene, ObjectKind kind, std::uint32_t index) {
+  if (kind == ObjectKind::sphere) return scene.spheres[index].material;
+  if (kind == ObjectKind::plane) return scene.planes[index].material;
+  return scene.triangles[index].material;
 }
 
-void fetch_all(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch, ShadingBatch& out) {
-  constexpr std::size_t kGroup = SurfaceBatch::kGroup;
-  const auto size = static_cast<std::size_t>(batch.size);
-  for (std::size_t i = 0; i < size; i += kGroup) batch.group[i / kGroup] = {.one = is_one(batch, i)};
+// What the kernel has to know of the primitives, and what shading has to.
+void fetch(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch, ShadingBatch& out) {
+  std::array<std::uint32_t, SurfaceBatch::kCapacity> first;
+  find_runs(batch, first);
+  batch.shiny = false;
   PrimitiveFinder find(scene);
-  const auto prefetch_next = [&](std::size_t i) {
-    if (!batch.prefetched && i < size && !batch.group[i / kGroup].one) prefetch_group(scene, find, batch, i);
-  };
-  prefetch_next(0);
-  for (std::size_t i = 0; i < size; i += kGroup) {
-    prefetch_next(i + kGroup);
-    fetch_group(scene, tables, find, batch, out, i);
+  const auto runs = static_cast<std::size_t>(batch.runs);
+  for (std::size_t r = 0; r < runs; ++r) {
+    batch.index[r] = find(batch.primitive[first[r]]).index;
+    if (!batch.prefetched) prefetch_surface(scene, {batch.kind, batch.index[r]});
   }
+  std::array<std::uint32_t, SurfaceBatch::kCapacity> material;
+  std::uint32_t unlike = 0;
+  for (std::size_t r = 0; r < runs; ++r) {
+    material[r] = material_of(scene, batch.kind, batch.index[r]);
+    unlike |= material[r] ^ material[0];
+    batch.shiny |= is_shiny(tables.materials[material[r]]);
+  }
+  const std::size_t size = whole_groups(batch.size);
+  if (unlike == 0)
+    std::fill_n(out.material.begin(), size, material[0]);
+  else
+    for (std::size_t i = 0; i < size; ++i) out.material[i] = material[batch.run[i]];
+  for (std::size_t r = runs; r < whole_groups(batch.runs); ++r) batch.index[r] = batch.index[runs - 1];
 }
 
 Ray ray_of(const Camera& camera, const SurfaceBatch& batch, std::size_t i) {
@@ -149,9 +117,13 @@ void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const Shadin
   if (batch.size == 0) return;
   pad(batch);
   const auto size = static_cast<std::size_t>(batch.size);
-  fetch_all(scene, tables, batch, out);
+  fetch(scene, tables, batch, out);
 
-  const SurfaceView view{vec(camera.eye), vec(camera.right), vec(camera.up), vec(camera.axis_part()),
+  const SurfaceView view{scene,
+                         as_vec(camera.eye),
+                         as_vec(camera.right),
+                         as_vec(camera.up),
+                         as_vec(camera.axis_part()),
                          tables.length_scale};
   batch.any_doubtful = false;
   by_isa(isa, surfaces_scalar, surfaces_avx2, surfaces_avx512)(view, batch, out);

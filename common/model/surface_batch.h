@@ -46,18 +46,11 @@ struct SurfaceBatch {
     size += count;
   }
 
-  // What the kernel reads of the scene, entry by entry; of a group with one primitive, at entry Group::first only.
-  // Triangles: three corners and three vertex normals (zero: none). Spheres: center, and radius in vector[1][0]. Planes:
-  // point and normal.
-  alignas(64) std::array<Vectors, 6> vector;
-  struct Group {
-    bool one = false;  // all of one primitive
-    std::size_t first = 0;
-    bool flat = false;    // some triangle has no vertex normals
-    bool smooth = false;  // some triangle has
-    bool shiny = false;   // V is asked for
-  };
-  std::array<Group, static_cast<std::size_t>(kCapacity / kGroup)> group;
+  // Set by surfaces_at(). Entries in a row that share a primitive, and the place from which they see it, are a run: which run
+  // an entry is of, and of each run which triangle, sphere or plane (of all vectors' lanes beyond the last: some).
+  alignas(64) Channel<std::uint32_t> run, index;
+  int runs = 0;
+  bool shiny = false;  // V is asked for
   // Results, if asked for: Place::point, facing and clearance, and Surface::normal. ShadingBatch::facing goes with them.
   bool want_leaving = false;
   alignas(64) Vectors point, facing, normal;

@@ -24,8 +24,9 @@ void sphere_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch&
   SurfaceLanes<F> lanes(batch, i);
   Vec3<F> d;
   lanes.direction(view, d);
-  const Vec3<F> center = lanes.scene_vector(0);
-  const F radius = lanes.scene_number(1, 0), r2 = radius * radius;
+  const auto& spheres = view.scene.spheres;
+  const Vec3<F> center = lanes.scene_vector([&](auto s) -> const auto& { return spheres[s].center; });
+  const F radius = lanes.scene_number([&](auto s) { return spheres[s].radius; }), r2 = radius * radius;
   const Vec3<F> f = lanes.origin(view) - center;
   const F dd = dot(d, d), b = -dot(f, d);
   const Vec3<F> nearest = f + (b / dd) * d;
@@ -49,9 +50,9 @@ void sphere_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch&
   if (lanes.wants_leaving()) {
     lanes.put_leaving(point, facing, sphere_clearance(outward, center, radius));
     lanes.put_normal(facing);
-    put_rounded(facing, out.facing, i);
+    put(rounded(facing), out.facing, i);
   }
-  put_point(view, point, facing, d, lanes.group().shiny, out, i);
+  put_point(view, point, facing, d, out, i);
 }
 
 // ---- Planes ----
@@ -67,7 +68,9 @@ void plane_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& 
   SurfaceLanes<F> lanes(batch, i);
   Vec3<F> d;
   lanes.direction(view, d);
-  const Vec3<F> on_plane = lanes.scene_vector(0), outward = lanes.scene_vector(1);
+  const auto& planes = view.scene.planes;
+  const Vec3<F> on_plane = lanes.scene_vector([&](auto p) -> const auto& { return planes[p].point; });
+  const Vec3<F> outward = lanes.scene_vector([&](auto p) -> const auto& { return planes[p].normal; });
   const Vec3<F> origin = lanes.origin(view);
   const F along = dot(outward, d);
   const F t = batch.has_t ? lanes.given_t() : dot(outward, on_plane - origin) / along;
@@ -79,20 +82,25 @@ void plane_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& 
   if (lanes.wants_leaving()) {
     lanes.put_leaving(point, facing, plane_clearance(outward, on_plane, p));
     lanes.put_normal(facing);
-    put_rounded(facing, out.facing, i);
+    put(rounded(facing), out.facing, i);
   }
-  put_point(view, point, facing, d, lanes.group().shiny, out, i);
+  put_point(view, point, facing, d, out, i);
 }
 
 template <class F>
 void surfaces_of_batch(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out) {
-  if (batch.kind == ObjectKind::mesh) return TriangleSurfaces<F>(view, batch, out).find_all();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>) {
-    if (batch.kind == ObjectKind::sphere)
-      sphere_surfaces<F>(view, batch, out, i);
-    else
-      plane_surfaces<F>(view, batch, out, i);
-  }
+  const auto for_each_vector = [&](const auto& find) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>)
+      find(view, batch, out, i);
+  };
+  if (batch.kind == ObjectKind::mesh)
+    TriangleSurfaces<F>(view, batch, out).find_all();
+  else if (batch.kind == ObjectKind::sphere)
+    for_each_vector(sphere_surfaces<F>);
+  else
+    for_each_vector(plane_surfaces<F>);
+  make_unit<FloatLanes<F>>(out.normal, batch);
+  if (batch.shiny) make_unit<FloatLanes<F>>(out.to_viewer, batch);
 }
 
 // One for each instruction set.

@@ -2,13 +2,14 @@
 // How the lanes of surface_kernel.h read a SurfaceBatch, and write what they find into it and a ShadingBatch.
 #pragma once
 
-#include "common/math/lane_ops.h"
+#include "common/math/lane_vectors.h"
 #include "common/math/vec.h"
 #include "common/model/surface_batch.h"
 
 namespace sidelight {
 
 struct SurfaceView {
+  const Scene& scene;
   Vec3<double> eye, right, up, axis;  // of the camera
   double length_scale = 1;            // of the shading tables
 };
@@ -31,12 +32,6 @@ Vec3<F> normalized(const Vec3<F>& v) {
   return (F(1) / square_root(dot(v, v))) * v;
 }
 
-// V
-template <class F>
-Vec3<F> to_viewer(const Vec3<F>& direction) {
-  return (F(-1) / square_root(dot(direction, direction))) * direction;
-}
-
 // ---- From and to the batches ----
 
 template <class F>
@@ -44,13 +39,14 @@ class SurfaceLanes {
  public:
   SurfaceLanes(SurfaceBatch& batch, std::size_t first) : batch_(batch), first_(first) {}
 
-  const SurfaceBatch::Group& group() const { return batch_.group[first_ / SurfaceBatch::kGroup]; }
-  F scene_number(std::size_t vector, std::size_t component) const {
-    const auto& channel = batch_.vector[vector][component];
-    return group().one ? F(channel[group().first]) : load<F>(&channel[first_]);
+  // of(index) of the primitives at hand: a vector of the scene, or a number.
+  template <class Of>
+  Vec3<F> scene_vector(const Of& of) const {
+    return load_vectors<F>([&](int lane) { return &of(index(lane)).x; });
   }
-  Vec3<F> scene_vector(std::size_t i) const {
-    return {scene_number(i, 0), scene_number(i, 1), scene_number(i, 2)};
+  template <class Of>
+  F scene_number(const Of& of) const {
+    return generate<F>([&](int lane) { return of(index(lane)); });
   }
   Vec3<F> origin(const SurfaceView& view) const {
     return batch_.own_rays ? own(batch_.origin) : wide<F>(view.eye);
@@ -81,6 +77,9 @@ class SurfaceLanes {
   }
 
  private:
+  std::uint32_t index(int lane) const {
+    return batch_.index[batch_.run[first_ + static_cast<std::size_t>(lane)]];
+  }
   Vec3<F> own(const SurfaceBatch::Vectors& from) const {
     return {load<F>(&from[0][first_]), load<F>(&from[1][first_]), load<F>(&from[2][first_])};
   }
@@ -94,11 +93,32 @@ class SurfaceLanes {
   std::size_t first_;
 };
 
+template <class Floats>
+void put(const Vec3<Floats>& v, ShadingBatch::Rgb& to, std::size_t i) {
+  store(v.x, &to[0][i]);
+  store(v.y, &to[1][i]);
+  store(v.z, &to[2][i]);
+}
 template <class F>
-void put_rounded(const Vec3<F>& v, ShadingBatch::Rgb& to, std::size_t i) {
-  store(to_float(v.x), &to[0][i]);
-  store(to_float(v.y), &to[1][i]);
-  store(to_float(v.z), &to[2][i]);
+auto rounded(const Vec3<F>& v) {
+  using Floats = decltype(to_float(v.x));
+  return Vec3<Floats>{to_float(v.x), to_float(v.y), to_float(v.z)};
+}
+
+// Gives unit length to what has been rounded, as unit_rounded() does; what it does otherwise is doubtful. F: floats.
+template <class F>
+void make_unit(ShadingBatch::Rgb& vectors, SurfaceBatch& batch) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>) {
+    const Vec3<F> v{load<F>(&vectors[0][i]), load<F>(&vectors[1][i]), load<F>(&vectors[2][i])};
+    const F length2 = dot(v, v);
+    put((F(1) / square_root(length2)) * v, vectors, i);
+    const Mask<F> odd = !(length2 >= F(kLeastPlain) && length2 <= F(kMostPlain));
+    if (!any<F>(odd)) continue;
+    batch.any_doubtful = true;
+    const std::uint32_t bits = mask_bits<F>(odd);
+    for (std::size_t lane = 0; lane < kLanes<F>; ++lane)
+      if ((bits >> lane & 1) != 0) batch.doubtful[i + lane] = 1;
+  }
 }
 
 // shading_point()
@@ -106,15 +126,16 @@ template <class F>
 void put_position(const SurfaceView& view, const Vec3<F>& point, ShadingBatch& out, std::size_t i) {
   const Vec3<F> scaled = F(view.length_scale) * point;
   const auto above = [](const F& x) { return x - to_double<F>(to_float(x)); };
-  put_rounded(scaled, out.high, i);
-  put_rounded(Vec3<F>{above(scaled.x), above(scaled.y), above(scaled.z)}, out.low, i);
+  put(rounded(scaled), out.high, i);
+  put(rounded(Vec3<F>{above(scaled.x), above(scaled.y), above(scaled.z)}), out.low, i);
 }
+// N and V are left to make_unit().
 template <class F>
 void put_point(const SurfaceView& view, const Vec3<F>& point, const Vec3<F>& normal, const Vec3<F>& direction,
-               bool shiny, ShadingBatch& out, std::size_t i) {
+               ShadingBatch& out, std::size_t i) {
   put_position(view, point, out, i);
-  put_rounded(normal, out.normal, i);
-  if (shiny) put_rounded(to_viewer(direction), out.to_viewer, i);
+  put(rounded(normal), out.normal, i);
+  put(rounded(-direction), out.to_viewer, i);
 }
 
 }  // namespace sidelight

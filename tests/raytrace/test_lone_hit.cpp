@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "common/model/surface.h"
+#include "raytrace/clearings.h"
 #include "raytrace/lone_hit.h"
 #include "tests/support/rays.h"
 #include "tests/support/scenes.h"
@@ -11,6 +12,7 @@
 
 using namespace sidelight;
 using namespace sidelight::test;
+using raytrace::Clearings;
 using raytrace::Lone;
 using raytrace::Prepared;
 
@@ -100,11 +102,12 @@ void check_lone(const Prepared& prepared, const Ray& ray, const Hit& hit, Lone l
 
 TEST_CASE("lone hits: brute force finds nothing else there") {
   Random random(94);
-  std::uint64_t hits = 0, lone_hits = 0;
+  std::uint64_t hits = 0, lone_hits = 0, clear = 0;
   for (std::uint64_t left = 1 + tier_count("rays_per_case") / 2000; left > 0; --left) {
     const Scene scene = crowded_scene(random);
     const Prepared prepared(scene);
     SignCounts counts;
+    Clearings clearings(prepared, best_isa(), 1);
     for (int i = 0; i < 100; ++i) {
       const auto& triangle =
           scene.triangles[random.below(static_cast<std::uint32_t>(scene.triangles.size()))];
@@ -117,9 +120,15 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
       const Ray ray = make_ray(from, random.uniform() < 0.5 ? target - from : random.direction());
       for (Hit hit = nearest(prepared, ray, kRayStart, counts); hit.found();
            hit = nearest(prepared, ray, hit, counts)) {
-        const Lone lone = lone_hit(prepared, ray, hit);
-        for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
-          if (machine_has(isa)) CHECK(lone_hit(prepared, ray, hit, isa) == lone);
+        const Lone lone = lone_hit(prepared, ray, hit, best_isa(), &clearings);
+        clear += is_clear(prepared, ray, hit, clearings);
+        for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+          if (!machine_has(isa)) continue;
+          const Lone searched = lone_hit(prepared, ray, hit, isa);
+          CHECK((searched == lone || searched == Lone::unknown));
+          Clearings same(prepared, isa, 1);
+          CHECK(is_clear(prepared, ray, hit, same) == is_clear(prepared, ray, hit, clearings));
+        }
         ++hits;
         if (lone == Lone::unknown) continue;
         ++lone_hits;
@@ -128,6 +137,7 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
     }
   }
   CHECK(lone_hits > hits / 2);
+  CHECK(clear > hits / 8);
 }
 
 TEST_CASE("lone hits: inside a secluded ball brute force finds its far side") {

@@ -3,7 +3,7 @@
 // whatever the scene's size, place and shape.
 #include <doctest/doctest.h>
 
-#include "raytrace/prepared.h"
+#include "raytrace/kernels.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/rays.h"
 #include "tests/support/scenes.h"
@@ -125,6 +125,53 @@ TEST_CASE("BVH: nearest, blocker and leaving_point are those of brute force on e
   CHECK(differing == 0);
   CHECK(uneven == 0);
   CHECK(left > asked / 20);
+}
+
+// Rays that go together and rays that do not, some of them with a past, some not finite; bundles that are not full.
+TEST_CASE("BVH: what rays of a bundle meet they meet alone, on every instruction set") {
+  Random random(80);
+  std::uint64_t differing = 0, uneven = 0, found = 0, asked = 0;
+  for (const Placement& placement : kPlacements) {
+    const Scene scene = random_scene(placement, random);
+    const Prepared prepared(scene);
+    for (std::uint64_t left = 1 + tier_count("rays_per_case") / 2000; left > 0; --left) {
+      std::vector<raytrace::RayQuestion> questions(1 + random.below(40));
+      const Ray ray = random_ray(scene, placement, random);
+      const double apart = random.log_uniform(1e-9, 10) * placement.size;
+      const bool broken = random.uniform() < 0.1;
+      for (auto& question : questions) {
+        question.ray =
+            make_ray(ray.origin + apart * random.in_box(1), ray.direction + apart * random.in_box(1));
+        if (broken && random.uniform() < 0.2) question.ray.direction.x = std::nan("");
+        SignCounts counts;
+        const Hit hit = nearest(prepared, question.ray, kRayStart, counts);
+        question.after = random.uniform() < 0.3 && hit.found() ? hit : kRayStart;
+        if (random.uniform() < 0.3) question.except = hit.primitive;
+        if (random.uniform() < 0.3 && hit.found() && question.except != hit.primitive &&
+            question.after == kRayStart)
+          question.best = hit;
+      }
+      std::optional<SignCounts> first;
+      for (const Isa isa : kIsas) {
+        if (!machine_has(isa)) continue;
+        auto bundled = questions;
+        SignCounts counts, alone;
+        nearest_beside(prepared, bundled, counts, isa);
+        for (std::size_t i = 0; i < questions.size(); ++i) {
+          const auto& [way, after, except, best] = questions[i];
+          const Hit expected = nearest_beside(prepared, way, after, except, best, alone, isa);
+          differing += bundled[i].best != expected;
+          found += expected.found();
+          ++asked;
+        }
+        if (!first) first = counts;
+        uneven += !same(*first, counts);
+      }
+    }
+  }
+  CHECK(differing == 0);
+  CHECK(uneven == 0);
+  CHECK(found > asked / 5);
 }
 
 TEST_CASE("BVH: a ray that starts in the plane of a floor does not meet it") {

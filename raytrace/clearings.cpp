@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "raytrace/clearings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raytrace/kernels.h"
+#include "raytrace/lone_hit.h"
+
+namespace sidelight::raytrace {
+
+// Weights are off by 2^-50 or so of a triangle's longest side over its height, which moves a point by less than the room
+// is rounded up here.
+Clearings::Clearings(const Prepared& prepared, Isa isa, int patience)
+    : prepared_(prepared),
+      isa_(isa),
+      room_((1 + 0x1p-10) * room_for(prepared.reach, 4 * prepared.reach)),
+      inset_(prepared.scene.triangles.size(), static_cast<float>(-patience)) {}
+
+bool Clearings::contain(std::uint32_t primitive, const glm::dvec3& point, double room) {
+  if (!((1 + 0x1p-10) * room <= room_)) return false;
+  const PrimitiveRef ref = primitive_ref(prepared_.scene, primitive);
+  float& inset = inset_[ref.index];
+  if (inset < 0) {
+    if (++inset < 0) return false;
+    inset = static_cast<float>(find_inset(primitive));
+  }
+  if (inset >= 1) return false;
+  const auto [v0, v1, v2] = corners(prepared_.scene, prepared_.scene.triangles[ref.index]);
+  const glm::dvec3 e1 = v1 - v0, e2 = v2 - v0, q = point - v0, n = glm::cross(e1, e2);
+  const double whole = glm::dot(n, n), least = double{inset} * whole;
+  const double second = glm::dot(glm::cross(q, e2), n), third = glm::dot(glm::cross(e1, q), n);
+  return second >= least && third >= least && whole - second - third >= least;
+}
+
+double Clearings::find_inset(std::uint32_t primitive) const {
+  const Scene& scene = prepared_.scene;
+  const Corners own = corners(scene, scene.triangles[primitive_ref(scene, primitive).index]);
+  if (others_near(own)) return 1;
+  const double inset = kernels_for(isa_).inset(prepared_.triangles, {own, room_, primitive});
+  return std::min(1.0, (1 + 0x1p-10) * inset);
+}
+
+// Planes and spheres, as near as the triangle is large.
+bool Clearings::others_near(const Corners& own) const {
+  const Scene& scene = prepared_.scene;
+  const glm::dvec3 middle = (own.v0 + own.v1 + own.v2) / 3.0;
+  const double size = std::max({glm::distance(own.v0, middle), glm::distance(own.v1, middle),
+                                glm::distance(own.v2, middle)}) +
+                      2 * room_;
+  for (const Plane& plane : scene.planes)
+    if (std::abs(glm::dot(plane.normal, middle - plane.point)) <= size) return true;
+  bool any = false;
+  auto found = [&](std::uint32_t) { any = true; };
+  if (!prepared_.spheres.bvh.nodes.empty())
+    kernels_for(isa_).near_spheres(prepared_.spheres, {middle, size, kNone, visitor_of(found), &any});
+  return any;
+}
+
+}  // namespace sidelight::raytrace
