@@ -9,9 +9,8 @@
 
 namespace sidelight {
 
-// For memory that has not been touched yet. Arrays below a few megabytes are left alone. More threads than one get it
-// together, which else whoever touches it first would wait for alone.
-void wish_large_pages(void* array, std::size_t bytes, int threads = 1);
+// For memory that has not been touched yet. Arrays below a few megabytes are left alone.
+void wish_large_pages(void* array, std::size_t bytes);
 
 // For memory with something in it, which stays as it is.
 void move_to_large_pages(const void* array, std::size_t bytes);

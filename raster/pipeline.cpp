@@ -89,7 +89,7 @@ void render_fast(const Job& job, Frame& frame) {
     const TileView view = visible.clear(scene, job.camera, samples_of(pixels, job.camera.n), counts);
     bins.draw(view, tile);
     spent.draw_ms += clock.lap_ms();
-    resolve.shade(pixels, visible.primitives(view), frame, counts);
+    resolve.shade(pixels, visible.primitives(view), counts);
     resolve.write(frame);
     spent.shade_ms += clock.lap_ms();
   });
@@ -116,7 +116,7 @@ void render_readable(const Job& job, Frame& frame) {
     const Rect pixels = job.grid.tile(tile);
     const auto draw_and_shade = [&](auto&& depth) {
       bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(scene, primitive, counts); });
-      resolve.shade_hits(pixels, depth, frame, counts);
+      resolve.shade_hits(pixels, depth, counts);
       resolve.write(frame);
     };
     NoFragments nothing;
@@ -132,7 +132,7 @@ void render_readable(const Job& job, Frame& frame) {
 Frame render(const Prepared& prepared, const Camera& camera, const RenderOptions& options) {
   const StandardFloatState nearest_and_denormals;
   if (options.faults.snap_bits) return render_snapped(prepared, camera, options);
-  Frame frame = make_frame(camera.width, camera.height, camera.n, options);
+  Frame frame = make_frame_to_write(camera.width, camera.height, camera.n, options, kRasterLayers);
   const Job job{
       prepared, camera, options, {frame.window, tile_edge(options, camera.n)}, thread_count(options.threads)};
   if (options.faults.depth_format || options.faults.float_precision || !frame.cost.empty())
@@ -153,10 +153,8 @@ RasterRecord explain(const Prepared& prepared, const Camera& camera, int X, int 
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive)
     depth.draw(scene, primitive, counts);
   RenderOptions options;
-  options.crop = pixel;
-  Frame frame = make_frame(camera.width, camera.height, n, options);
   TileResolve resolve(prepared, camera, options);
-  resolve.shade_hits(pixel, depth, frame, counts);
+  resolve.shade_hits(pixel, depth, counts);
 
   RasterRecord record;
   record.fragments = std::move(fragments.fragments);

@@ -11,8 +11,8 @@ namespace sidelight::raster {
 class Prepared {
  public:
   Prepared(const Scene& s, const Needs& needs) : scene(s), tables(make_shading_tables(s, needs)) {
-    corners.reserve(s.triangles.size());
-    for (const Triangle& triangle : s.triangles) corners.push_back(triangle.vertex);
+    corners.resize(s.triangles.size() + 3);
+    for (std::size_t i = 0; i < s.triangles.size(); ++i) corners[i] = s.triangles[i].vertex;
     move_to_large_pages<glm::dvec3>(s.positions);
     move_to_large_pages<glm::dvec3>(s.normals);
     move_to_large_pages<Triangle>(s.triangles);
@@ -21,7 +21,8 @@ class Prepared {
 
   const Scene& scene;
   ShadingTables tables;
-  std::vector<std::array<std::uint32_t, 3>> corners;  // of every triangle: all of it that set-up reads
+  // Of every triangle: all of it that set-up reads, four at a time, so that after the last there are three more.
+  std::vector<std::array<std::uint32_t, 3>> corners;
 };
 
 }  // namespace sidelight::raster

@@ -11,17 +11,15 @@
 namespace sidelight::raster {
 namespace {
 
-// Colours as a picture has them: x0 y0 z0 x1 ..., with zeros of one sign, as in a mean.
+// Colours as a picture has them: x0 y0 z0 x1 ...
 void interleave(const ShadingBatch::Rgb& from, std::size_t first, std::size_t count, glm::vec3* to) {
   std::size_t i = 0;
   for (; i + 4 <= count; i += 4) {
-    const auto four = [&](std::size_t c) {
-      return load_four<FourFloats>(&from[c][first + i]) + FourFloats{};
-    };
+    const auto four = [&](std::size_t c) { return load_four<FourFloats>(&from[c][first + i]); };
     const auto parts = interleaved(four(0), four(1), four(2));
     std::memcpy(&to[i].x, parts.data(), sizeof parts);
   }
-  for (; i < count; ++i) to[i] = glm::vec3(0) + get(from, first + i);
+  for (; i < count; ++i) to[i] = get(from, first + i);
 }
 
 }  // namespace
@@ -39,29 +37,17 @@ TileResolve::TileResolve(const Prepared& prepared, const Camera& camera, const R
     collected_[static_cast<std::size_t>(kind)].batch.kind = kind;
 }
 
-void TileResolve::begin(Layer3& layer, Colors& of_frame, const Frame& frame) const {
-  if (n_ == 1 && !of_frame.empty()) {
-    layer.first = &of_frame[frame.index(pixels_.x0, pixels_.y0)];
-    layer.stride = frame.width();
-    return;
-  }
-  layer.samples.resize(samples());
-  layer.first = layer.samples.data();
-  layer.stride = columns();
-}
-
-void TileResolve::begin(const Rect& pixels, Frame& frame) {
+void TileResolve::begin(const Rect& pixels) {
   pixels_ = pixels;
-  begin(color_, frame.color, frame);
+  color_.resize(samples());
   if (want_t_) t_.resize(samples());
   if (want_normal_) normal_.resize(samples());
   if (want_parts_)
-    for (std::size_t l = 0; l < parts_.size(); ++l) begin(parts_[l], frame.rgb[l], frame);
+    for (Colors& part : parts_) part.resize(samples());
 }
 
-void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, Frame& frame,
-                        SignCounts& counts) {
-  begin(pixels, frame);
+void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts) {
+  begin(pixels);
   primitive_ = primitives;
   shade_samples(false, counts);
 }
@@ -147,12 +133,12 @@ std::size_t TileResolve::shade_row(int row, std::size_t run, bool known_t, SignC
 }
 
 void TileResolve::set_background(const Run& run) {
-  const auto set = [&](const Layer3& layer, const glm::vec3& color) {
-    std::fill_n(layer.at(run.column, run.row), run.count, color);
-  };
-  const auto background = glm::vec3(0) + glm::vec3(prepared_.scene.background);
-  set(color_, background);
   const auto first = static_cast<std::ptrdiff_t>(index(run.column, run.row));
+  const auto set = [&](Colors& layer, const glm::vec3& color) {
+    std::fill_n(layer.begin() + first, run.count, color);
+  };
+  const glm::vec3 background(prepared_.scene.background);
+  set(color_, background);
   if (want_t_) std::fill_n(t_.begin() + first, run.count, 0.0);
   if (want_normal_) std::fill_n(normal_.begin() + first, run.count, glm::vec3(0));
   if (!want_parts_) return;
@@ -172,8 +158,9 @@ void TileResolve::flush(Collected& collected, SignCounts& counts) {
 // What has been found of a run.
 void TileResolve::keep(const SurfaceBatch& batch, const Run& run) {
   const auto from = static_cast<std::size_t>(run.entry), count = static_cast<std::size_t>(run.count);
-  const auto put = [&](const Layer3& layer, const ShadingBatch::Rgb& colors) {
-    interleave(colors, from, count, layer.at(run.column, run.row));
+  const std::size_t to = index(run.column, run.row);
+  const auto put = [&](Colors& layer, const ShadingBatch::Rgb& colors) {
+    interleave(colors, from, count, &layer[to]);
   };
   put(color_, shading_.unshadowed);
   if (want_parts_) {
@@ -181,7 +168,6 @@ void TileResolve::keep(const SurfaceBatch& batch, const Run& run) {
     put(parts_[1], shading_.diffuse_layer);
     put(parts_[2], shading_.specular_layer);
   }
-  const std::size_t to = index(run.column, run.row);
   if (want_t_)
     for (std::size_t i = 0; i < count; ++i) t_[to + i] = batch.t[from + i];
   if (want_normal_)
@@ -190,10 +176,8 @@ void TileResolve::keep(const SurfaceBatch& batch, const Run& run) {
 
 void TileResolve::write(Frame& frame) const {
   const TilePixels tile(pixels_, n_);
-  if (n_ > 1) {
-    tile.write_means(color_.samples, frame, frame.color);
-    for (std::size_t l = 0; l < parts_.size(); ++l) tile.write_means(parts_[l].samples, frame, frame.rgb[l]);
-  }
+  tile.write_means(color_, frame, frame.color);
+  for (std::size_t l = 0; l < parts_.size(); ++l) tile.write_means(parts_[l], frame, frame.rgb[l]);
   tile.write_surfaces([&](std::size_t sample) { return primitive_[sample]; }, t_, normal_, prepared_.scene,
                       camera_.depth_scale(), frame);
   if (frame.cost.empty() || tests_.empty()) return;

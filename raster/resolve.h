@@ -19,13 +19,13 @@ class TileResolve {
   // Of the options, isa, layers and keep_samples.
   TileResolve(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
-  // The samples of `pixels` of the frame, of which the z-buffer keeps these primitives (row by row on the lattice; kNone:
+  // The samples of these pixels, of which the z-buffer keeps these primitives (row by row on the lattice; kNone:
   // background). They must stay until the tile is written.
-  void shade(const Rect& pixels, const std::uint32_t* primitives, Frame& frame, SignCounts& counts);
+  void shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts);
   // The same of what a tile of hits holds: a DepthTile, or one with faults, whose depths need not be those of visibility.h.
   template <class Tile>
-  void shade_hits(const Rect& pixels, const Tile& tile, Frame& frame, SignCounts& counts) {
-    begin(pixels, frame);
+  void shade_hits(const Rect& pixels, const Tile& tile, SignCounts& counts) {
+    begin(pixels);
     kept_primitive_.resize(samples());
     known_t_.resize(samples());
     tests_.resize(samples());
@@ -41,21 +41,14 @@ class TileResolve {
   }
 
   // After shade(): the colour of the sample at (X, Y) of the tile, and what the frame's pixels are made of.
-  const glm::vec3& color(int X, int Y) const { return *color_.at(X - n_ * pixels_.x0, Y - n_ * pixels_.y0); }
+  glm::vec3 color(int X, int Y) const {
+    return glm::vec3(0) + color_[index(X - n_ * pixels_.x0, Y - n_ * pixels_.y0)];
+  }
   void write(Frame& frame) const;
 
  private:
   using Colors = std::vector<glm::vec3>;
 
-  // A colour of each sample, column by column in rows: of one sample a pixel the pixels themselves, else an array of the
-  // tile's, of which write() takes the means.
-  struct Layer3 {
-    Colors samples{};
-    glm::vec3* first = nullptr;
-    std::ptrdiff_t stride = 0;
-
-    glm::vec3* at(int column, int row) const { return first + row * stride + column; }
-  };
   // Neighbours in a row, from (column, row) of the tile, and where they begin in their batch.
   struct Run {
     int column = 0, row = 0, entry = 0, count = 0;
@@ -74,8 +67,7 @@ class TileResolve {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns()) +
            static_cast<std::size_t>(column);
   }
-  void begin(const Rect& pixels, Frame& frame);
-  void begin(Layer3& layer, Colors& of_frame, const Frame& frame) const;
+  void begin(const Rect& pixels);
   void shade_samples(bool known_t, SignCounts& counts);
   void find_runs();
   void prefetch_run(std::size_t run);
@@ -96,9 +88,8 @@ class TileResolve {
   std::vector<std::uint32_t> run_start_;  // of runs_ runs of one primitive in a row; and the end of the last
   std::size_t runs_ = 0;
   std::vector<double> known_t_, t_;
-  Colors normal_;
-  Layer3 color_;
-  std::array<Layer3, 3> parts_;         // ambient, diffuse, specular
+  Colors normal_, color_;
+  std::array<Colors, 3> parts_;         // ambient, diffuse, specular
   std::array<Collected, 3> collected_;  // by ObjectKind
   PrimitiveFinder find_;
   ShadingBatch shading_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "common/clock.h"
-#include "common/large_pages.h"
 #include "common/parallel.h"
 
 namespace sidelight::raster {
@@ -44,10 +43,9 @@ VisibleBins::VisibleBins(const Scene& scene, const Corners3* corners, const Came
       window_(samples_of(grid.window, camera.n)),
       tile_columns_(tiles_of_samples(window_.x1 - window_.x0, camera.n * grid.edge)),
       tile_rows_(tiles_of_samples(window_.y1 - window_.y0, camera.n * grid.edge)),
-      vertices_(std::make_unique_for_overwrite<ScreenVertex[]>(scene.positions.size())),
+      vertices_(scene.positions.size()),
       threads_(static_cast<std::size_t>(threads)) {
   const auto vertices = static_cast<std::uint32_t>(scene.positions.size());
-  wish_large_pages(vertices_.get(), vertices * sizeof(ScreenVertex));
   parallel_for(static_cast<int>((vertices + kVertexBatch - 1) / kVertexBatch), threads,
                [&](int item, int thread) {
                  LapClock clock;
@@ -84,10 +82,10 @@ std::vector<VisibleBins::Batch> VisibleBins::batches() const {
   return batches;
 }
 
-// The records of four vertices become four x, four y, four w and four states.
+// The records of four vertices become four x, four y, four w and four states; beyond the last triangle's, any.
 void VisibleBins::load_chunk(const Corners3* corners, TriangleChunk& chunk) const {
   const auto record = [&](std::size_t triangle, std::size_t k) {
-    return load_four(&vertices_[corners[std::min(triangle, static_cast<std::size_t>(chunk.size) - 1)][k]]);
+    return load_four(&vertices_[corners[triangle][k]]);
   };
   for (std::size_t i = 0; i < static_cast<std::size_t>(chunk.size); i += 4)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -235,7 +233,7 @@ void VisibleBins::draw(const TileView& view, int tile) const {
   const auto draw_small = [&](std::vector<SmallTriangle> TileBin::*list) {
     for (const ThreadBins& bins : threads_) {
       const std::vector<SmallTriangle>& small = bins.tiles[t].*list;
-      kernels_.draw_small(view, space_, vertices_.get(), corners_, small.data(), small.size());
+      kernels_.draw_small(view, space_, vertices_.data(), corners_, small.data(), small.size());
     }
   };
   draw_small(&TileBin::front);

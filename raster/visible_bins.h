@@ -3,9 +3,9 @@
 // of its tiles. Each thread has bins of its own, never merged or sorted: what a tile shows depends on (depth, primitive).
 #pragma once
 
-#include <memory>
 #include <vector>
 
+#include "common/kept_memory.h"
 #include "raster/bins.h"
 #include "raster/kernels.h"
 
@@ -34,7 +34,7 @@ struct ThreadBins {
 
 class VisibleBins {
  public:
-  // `corners`: of all triangles of the scene, once more, in the 12 bytes that set-up reads.
+  // `corners`: Prepared::corners.
   VisibleBins(const Scene& scene, const Corners3* corners, const Camera& camera, const TileGrid& grid,
               Isa isa, int threads);
 
@@ -79,7 +79,7 @@ class VisibleBins {
   RaySheet sheet_;
   SampleBox window_;
   std::vector<int> tile_columns_, tile_rows_;  // of each column and row of the window's samples: no division
-  std::unique_ptr<ScreenVertex[]> vertices_;
+  KeptArray<ScreenVertex> vertices_;
   std::vector<ThreadBins> threads_;
 };
 

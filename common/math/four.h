@@ -4,6 +4,8 @@
 // no copy of these that is compiled for one instruction set may serve another.
 #pragma once
 
+#include <xmmintrin.h>
+
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -23,6 +25,11 @@ template <class V>
 [[gnu::always_inline]] inline void store_four(const V& four, void* to) {
   std::memcpy(to, &four, sizeof four);
 }
+
+// Past the caches, to an address that is a multiple of 16; whole cache lines, one after the other, or it is slow. Others
+// see it after end_streams() of the thread that stored it.
+[[gnu::always_inline]] inline void stream_four(const FourFloats& four, float* to) { _mm_stream_ps(to, four); }
+[[gnu::always_inline]] inline void end_streams() { _mm_sfence(); }
 
 // Four rows of four become their columns.
 [[gnu::always_inline]] inline std::array<Four, 4> transposed(const Four& a, const Four& b, const Four& c,

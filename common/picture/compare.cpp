@@ -30,6 +30,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "common/picture/srgb.h"
 #include "common/scene/scene.h"
@@ -116,8 +117,8 @@ void compare_visibility(const Frame& rastered, const Frame& traced, const std::v
   }
 }
 
-void check_ledger(const Frame& rastered, const Frame& traced, std::size_t lights, const std::vector<char>& spoiled,
-                  Comparison& result) {
+void check_ledger(const Frame& rastered, const Frame& traced, std::size_t lights,
+                  const std::vector<char>& spoiled, Comparison& result) {
   const double tolerance = (2 * static_cast<double>(lights) + 12) * 0x1p-24;
   for (std::size_t i = 0; i < rastered.pixels(); ++i) {
     if (!spoiled.empty() && spoiled[i]) continue;
@@ -139,7 +140,7 @@ void check_ledger(const Frame& rastered, const Frame& traced, std::size_t lights
   }
 }
 
-Cause sum_up(const std::vector<glm::vec3>& term) {
+Cause sum_up(std::span<const glm::vec3> term) {
   Cause cause;
   for (const glm::vec3& value : term) {
     if (value != glm::vec3(0)) ++cause.pixels;
@@ -180,7 +181,8 @@ glm::vec3 cause_color(const Frame& rastered, const Frame& traced, std::size_t i)
 // against red and green, they lie at the two ends and between.
 const std::array<glm::vec3, 3> kCauseHues{{{0.0f, 0.378f, 1.0f}, {1.0f, 0.438f, 0.0f}, {0.0f, 1.0f, 0.501f}}};
 
-Comparison compare(const Frame& rastered, const Frame& traced, std::size_t lights, const std::vector<char>& spoiled) {
+Comparison compare(const Frame& rastered, const Frame& traced, std::size_t lights,
+                   const std::vector<char>& spoiled) {
   assert_comparable(rastered, traced);
   assert_has_causes(traced);
   Comparison result;
@@ -207,12 +209,12 @@ std::vector<glm::vec3> cause_map(const Frame& rastered, const Frame& traced) {
   return map;
 }
 
-std::array<std::vector<glm::vec3>, 4> ledger_sums(const Frame& rastered, const Frame& traced) {
+std::array<KeptArray<glm::vec3>, 4> ledger_sums(const Frame& rastered, const Frame& traced) {
   assert_comparable(rastered, traced);
   assert_has_causes(traced);
-  std::array<std::vector<glm::vec3>, 4> sums{rastered.color, {}, {}, {}};
+  std::array<KeptArray<glm::vec3>, 4> sums{rastered.color, {}, {}, {}};
   for (std::size_t k = 0; k < kCauseLayers.size(); ++k) {
-    const std::vector<glm::vec3>& term = traced.layer(kCauseLayers[k]);
+    const KeptArray<glm::vec3>& term = traced.layer(kCauseLayers[k]);
     const float sign = kCauseLayers[k] == Layer::shadow ? -1.0f : 1.0f;
     sums[k + 1] = sums[k];
     for (std::size_t i = 0; i < term.size(); ++i) sums[k + 1][i] += sign * term[i];

@@ -9,7 +9,7 @@ namespace sidelight {
 namespace {
 
 // What metrics.h does not have, over the channel values that are finite in both pictures.
-void add_distribution(const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth,
+void add_distribution(std::span<const glm::vec3> picture, std::span<const glm::vec3> truth,
                       ErrorMeasure& out) {
   std::vector<double> differences;
   differences.reserve(3 * picture.size());
@@ -30,8 +30,8 @@ void add_distribution(const std::vector<glm::vec3>& picture, const std::vector<g
   out.p999 = *at;
 }
 
-ErrorMeasure measure_error(const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth,
-                           int width, int height) {
+ErrorMeasure measure_error(std::span<const glm::vec3> picture, std::span<const glm::vec3> truth, int width,
+                           int height) {
   ErrorMeasure out;
   out.metrics = measure(picture, truth, width, height);
   add_distribution(picture, truth, out);
@@ -40,7 +40,7 @@ ErrorMeasure measure_error(const std::vector<glm::vec3>& picture, const std::vec
 
 }  // namespace
 
-PictureError picture_error(const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth,
+PictureError picture_error(std::span<const glm::vec3> picture, std::span<const glm::vec3> truth,
                            const std::vector<char>& covered, int width, int height) {
   assert(picture.size() == truth.size() && picture.size() == covered.size());
   PictureError out;

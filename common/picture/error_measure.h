@@ -4,6 +4,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "common/picture/metrics.h"
@@ -23,7 +24,7 @@ struct PictureError {
 // Of `picture` against `truth`, both width * height. covered[i] is not 0 where pixel i counts as covered. Values that
 // are not finite in one or both are counted in metrics.non_finite and left out else. `depth` is left to the caller, who
 // has the samples.
-PictureError picture_error(const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth,
+PictureError picture_error(std::span<const glm::vec3> picture, std::span<const glm::vec3> truth,
                            const std::vector<char>& covered, int width, int height);
 
 }  // namespace sidelight

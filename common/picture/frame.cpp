@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "common/large_pages.h"
 #include "common/scene/scene.h"
 
 namespace sidelight {
@@ -20,12 +19,20 @@ Rect stored_window(int width, int height, const RenderOptions& options) {
   return cropped ? options.crop : Rect{0, 0, width, height};
 }
 
-// Zeros, `size` of them. Memory is new in most frames: at 1440p, to get it page by page took longer than the zeros in it.
 template <class T>
-void make_zeros(std::vector<T>& array, std::size_t size, int threads) {
-  array.reserve(size);
-  wish_large_pages(array.data(), size * sizeof(T), threads);
-  array.resize(size);
+void set_zero(KeptArray<T>& array) {
+  std::fill(array.begin(), array.end(), T{});
+}
+
+// visit(layer, its array) for every layer.
+template <class Visit>
+void for_each_layer(Frame& frame, const Visit& visit) {
+  for (std::size_t i = 0; i < frame.rgb.size(); ++i) visit(static_cast<Layer>(i), frame.rgb[i]);
+  visit(Layer::depth, frame.depth);
+  visit(Layer::object, frame.object_id);
+  visit(Layer::primitive, frame.primitive_id);
+  visit(Layer::normal, frame.normal);
+  visit(Layer::cost, frame.cost);
 }
 
 // Where the search for the first value that is not finite stands.
@@ -41,7 +48,7 @@ bool is_finite(const glm::vec3& value) {
 
 // Moves `fault` to the first faulty pixel of one array if that stands before the one already found.
 template <class T>
-void look_for_fault(const std::vector<T>& values, std::string_view name, Fault& fault) {
+void look_for_fault(const KeptArray<T>& values, std::string_view name, Fault& fault) {
   for (std::size_t i = 0; i < values.size() && i < fault.pixel; ++i) {
     if (!is_finite(values[i])) fault = {i, name};
   }
@@ -73,6 +80,14 @@ void RenderStats::add_counts(const RenderStats& other) {
 }
 
 Frame make_frame(int width, int height, int n, const RenderOptions& options) {
+  Frame frame = make_frame_to_write(width, height, n, options, 0);
+  set_zero(frame.color);
+  set_zero(frame.sample_primitive);
+  set_zero(frame.sample_depth);
+  return frame;
+}
+
+Frame make_frame_to_write(int width, int height, int n, const RenderOptions& options, LayerMask written) {
   assert(width > 0 && height > 0 && n > 0);
   Frame frame;
   frame.full_width = width;
@@ -83,20 +98,16 @@ Frame make_frame(int width, int height, int n, const RenderOptions& options) {
   assert(frame.window.y0 >= 0 && frame.window.y0 < frame.window.y1 && frame.window.y1 <= height);
 
   const std::size_t pixels = frame.pixels();
-  const auto make = [&](auto& array, std::size_t size) { make_zeros(array, size, options.threads); };
-  make(frame.color, pixels);
-  for (std::size_t i = 0; i < frame.rgb.size(); ++i) {
-    if (asked_for(options, static_cast<Layer>(i))) make(frame.rgb[i], pixels);
-  }
-  if (asked_for(options, Layer::depth)) make(frame.depth, pixels);
-  if (asked_for(options, Layer::object)) make(frame.object_id, pixels);
-  if (asked_for(options, Layer::primitive)) make(frame.primitive_id, pixels);
-  if (asked_for(options, Layer::normal)) make(frame.normal, pixels);
-  if (asked_for(options, Layer::cost)) make(frame.cost, pixels);
+  frame.color.resize(pixels);
+  for_each_layer(frame, [&](Layer layer, auto& array) {
+    if (!asked_for(options, layer)) return;
+    array.resize(pixels);
+    if ((written & layer_bit(layer)) == 0) set_zero(array);
+  });
   if (options.keep_samples) {
     const std::size_t samples = pixels * static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-    make(frame.sample_primitive, samples);
-    make(frame.sample_depth, samples);
+    frame.sample_primitive.resize(samples);
+    frame.sample_depth.resize(samples);
   }
   return frame;
 }

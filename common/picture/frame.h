@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/kept_memory.h"
 #include "common/math/isa.h"
 #include "common/model/faults.h"
 
@@ -117,19 +118,19 @@ struct Frame {
   Rect window;                          // the part that is stored
   int n = 1;                            // samples per pixel edge: n x n samples
 
-  std::vector<glm::vec3> color;
-  std::array<std::vector<glm::vec3>, kRgbLayers> rgb;  // empty unless asked for; indexed by Layer
+  KeptArray<glm::vec3> color;
+  std::array<KeptArray<glm::vec3>, kRgbLayers> rgb;  // empty unless asked for; indexed by Layer
   // Of sample (n/2, n/2) of each pixel; empty unless asked for.
-  std::vector<float> depth;                 // distance along the viewing direction; 0 on background
-  std::vector<std::uint32_t> object_id;     // 0: background, else 1 + the object's number
-  std::vector<std::uint32_t> primitive_id;  // likewise
-  std::vector<glm::vec3> normal;            // N, unit, world space; 0 on background
+  KeptArray<float> depth;                 // distance along the viewing direction; 0 on background
+  KeptArray<std::uint32_t> object_id;     // 0: background, else 1 + the object's number
+  KeptArray<std::uint32_t> primitive_id;  // likewise
+  KeptArray<glm::vec3> normal;            // N, unit, world space; 0 on background
   // SignCounts::tests made for the pixel, all its samples together; empty unless asked for. Whole numbers,
   // rounded to a float above 2^24.
-  std::vector<float> cost;
+  KeptArray<float> cost;
   // Of every sample (keep_samples), n*n a pixel, row by row within the pixel: primitive or kNone, and its depth t.
-  std::vector<std::uint32_t> sample_primitive;
-  std::vector<double> sample_depth;
+  KeptArray<std::uint32_t> sample_primitive;
+  KeptArray<double> sample_depth;
 
   RenderStats stats;
 
@@ -142,13 +143,16 @@ struct Frame {
     return static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(width()) +
            static_cast<std::size_t>(x - window.x0);
   }
-  const std::vector<glm::vec3>& layer(Layer l) const { return rgb[static_cast<std::size_t>(l)]; }
-  std::vector<glm::vec3>& layer(Layer l) { return rgb[static_cast<std::size_t>(l)]; }
+  const KeptArray<glm::vec3>& layer(Layer l) const { return rgb[static_cast<std::size_t>(l)]; }
+  KeptArray<glm::vec3>& layer(Layer l) { return rgb[static_cast<std::size_t>(l)]; }
 };
 
 // A frame with its arrays allocated for `options` (all zero). Sizes and n are positive; the crop, if there is
 // one, lies inside the picture.
 Frame make_frame(int width, int height, int n, const RenderOptions& options);
+// The same for one that writes colour, samples and the layers `written` of every pixel: these are not set, which at 1440p
+// takes a twentieth of a frame.
+Frame make_frame_to_write(int width, int height, int n, const RenderOptions& options, LayerMask written);
 
 // The mean of a pixel's samples: summed in double in the order given, divided, rounded once. The one definition,
 // so that equal samples give equal pixels in both renderers.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <span>
 
 #include "common/error.h"
 #include "common/picture/picture_codec.h"
@@ -26,7 +27,7 @@ constexpr std::size_t kChannelBytes = 4;
 static_assert(sizeof(glm::vec3) == 3 * kChannelBytes);
 
 template <class T>
-void add_channel(const std::vector<T>& values, const std::string& name, OIIO::TypeDesc type,
+void add_channel(const KeptArray<T>& values, const std::string& name, OIIO::TypeDesc type,
                  std::vector<Channel>& channels) {
   static_assert(sizeof(T) == kChannelBytes);
   if (values.empty()) return;
@@ -34,7 +35,7 @@ void add_channel(const std::vector<T>& values, const std::string& name, OIIO::Ty
 }
 
 // `axes`: one letter per component, "RGB" or "XYZ".
-void add_channels(const std::vector<glm::vec3>& values, const std::string& prefix, const std::string& axes,
+void add_channels(std::span<const glm::vec3> values, const std::string& prefix, const std::string& axes,
                   std::vector<Channel>& channels) {
   if (values.empty()) return;
   const auto* first = reinterpret_cast<const std::byte*>(values.data());

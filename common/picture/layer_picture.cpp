@@ -24,7 +24,7 @@ std::uint8_t code(double value) {
 }
 
 template <class T, class Color>
-Image8 colored(const Frame& frame, const std::vector<T>& values, const Color& color) {
+Image8 colored(const Frame& frame, const KeptArray<T>& values, const Color& color) {
   assert(values.size() == frame.pixels());
   Image8 image{frame.width(), frame.height(), {}};
   image.rgb.reserve(3 * values.size());

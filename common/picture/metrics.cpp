@@ -33,7 +33,7 @@ struct Sums {
 
 }  // namespace
 
-Metrics measure(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, int width, int height) {
+Metrics measure(std::span<const glm::vec3> a, std::span<const glm::vec3> b, int width, int height) {
   assert(a.size() == b.size());
   assert(a.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   Metrics metrics;

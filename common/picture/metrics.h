@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sidelight {
@@ -22,6 +23,6 @@ struct Metrics {
 };
 
 // a.size() == b.size() == width * height. Symmetric in a and b.
-Metrics measure(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, int width, int height);
+Metrics measure(std::span<const glm::vec3> a, std::span<const glm::vec3> b, int width, int height);
 
 }  // namespace sidelight

@@ -86,7 +86,7 @@ float decode_srgb8(std::uint8_t encoded) {
 
 float decode_srgb(double encoded) { return static_cast<float>(linear_from_srgb(encoded)); }
 
-Image8 to_image8(const std::vector<glm::vec3>& linear, int width, int height) {
+Image8 to_image8(std::span<const glm::vec3> linear, int width, int height) {
   assert(linear.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   Image8 image{width, height, {}};
   image.rgb.reserve(3 * linear.size());

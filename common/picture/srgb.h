@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 namespace sidelight {
@@ -28,6 +29,6 @@ float decode_srgb8(std::uint8_t encoded);
 float decode_srgb(double encoded);
 
 // linear.size() == width * height.
-Image8 to_image8(const std::vector<glm::vec3>& linear, int width, int height);
+Image8 to_image8(std::span<const glm::vec3> linear, int width, int height);
 
 }  // namespace sidelight

@@ -13,7 +13,7 @@ namespace sidelight {
 
 class TilePixels {
  public:
-  using Colors = std::vector<glm::vec3>;
+  using Colors = std::span<const glm::vec3>;
 
   // These pixels, in picture coordinates, of n x n samples each.
   TilePixels(const Rect& pixels, int n) : pixels_(pixels), n_(static_cast<std::size_t>(n)) {}
@@ -34,12 +34,12 @@ class TilePixels {
   }
 
   // Their means; nothing where the frame has no such pixels.
-  void write_means(const Colors& samples, const Frame& frame, Colors& pixels) const;
+  void write_means(Colors samples, const Frame& frame, KeptArray<glm::vec3>& pixels) const;
 
   // What is kept of the sample in the middle, (n/2, n/2), and where the frame asks for it of all: surfaces and depths.
   // primitive_of(sample) is kNone on background, where t is 0. t and normal may be empty where nothing asks for them.
   template <class PrimitiveOf>
-  void write_surfaces(const PrimitiveOf& primitive_of, const std::vector<double>& t, const Colors& normal,
+  void write_surfaces(const PrimitiveOf& primitive_of, const std::vector<double>& t, Colors normal,
                       const Scene& scene, double depth_scale, Frame& frame) const {
     const std::size_t middle = n_ / 2 * columns() + n_ / 2;
     const auto for_each_middle = [&](const auto& array, const auto& write) {

@@ -22,7 +22,7 @@ double channel_difference(const glm::vec3& a, const glm::vec3& b) {
   return std::max({difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)});
 }
 
-std::vector<double> pixel_differences(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+std::vector<double> pixel_differences(std::span<const glm::vec3> a, std::span<const glm::vec3> b) {
   assert(a.size() == b.size());
   std::vector<double> differences(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) differences[i] = channel_difference(a[i], b[i]);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace sidelight {
@@ -19,7 +20,7 @@ namespace sidelight {
 double channel_difference(const glm::vec3& a, const glm::vec3& b);
 
 // That, for each pixel. a.size() == b.size().
-std::vector<double> pixel_differences(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b);
+std::vector<double> pixel_differences(std::span<const glm::vec3> a, std::span<const glm::vec3> b);
 // Counts one more channel (alpha) in. All three of one size.
 void include_channel(std::vector<double>& differences, const std::vector<float>& a,
                      const std::vector<float>& b);

@@ -87,7 +87,7 @@ struct Floors {
   }
 };
 
-double sum(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double sum(const KeptArray<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 }  // namespace
 

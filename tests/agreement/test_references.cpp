@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,16 +50,16 @@ void check_visibility(const Frame& fast, const Frame& slow) {
 
 // Calls visit(index, x, y) for each pixel in which the two arrays are not close.
 template <class Visit>
-void for_each_stray(const Frame& frame, const std::vector<glm::vec3>& fast,
-                    const std::vector<glm::vec3>& slow, const Visit& visit) {
+void for_each_stray(const Frame& frame, std::span<const glm::vec3> fast, std::span<const glm::vec3> slow,
+                    const Visit& visit) {
   REQUIRE(fast.size() == slow.size());
   for (int y = frame.window.y0; y < frame.window.y1; ++y)
     for (int x = frame.window.x0; x < frame.window.x1; ++x)
       if (const std::size_t i = frame.index(x, y); !close(fast[i], slow[i])) visit(i, x, y);
 }
 
-void check_close(const char* name, const Frame& frame, const std::vector<glm::vec3>& fast,
-                 const std::vector<glm::vec3>& slow) {
+void check_close(const char* name, const Frame& frame, std::span<const glm::vec3> fast,
+                 std::span<const glm::vec3> slow) {
   for_each_stray(frame, fast, slow, [&](std::size_t i, int x, int y) {
     FAIL_CHECK(name << " at pixel " << x << "," << y << ": fast " << text(fast[i]) << ", reference "
                     << text(slow[i]));

@@ -241,7 +241,8 @@ Frame Llvmpipe::look(const Camera& camera) {
   state_->draw(camera, true);
   const auto colors = state_->read<std::array<unsigned char, 4>>(GL_RGBA, GL_UNSIGNED_BYTE);
   state_->draw(camera, false);
-  frame.primitive_id = state_->read<std::uint32_t>(GL_RED_INTEGER, GL_UNSIGNED_INT);
+  const auto ids = state_->read<std::uint32_t>(GL_RED_INTEGER, GL_UNSIGNED_INT);
+  std::copy(ids.begin(), ids.end(), frame.primitive_id.begin());
   const auto depths = state_->read<float>(GL_DEPTH_COMPONENT, GL_FLOAT);
   for (std::size_t i = 0; i < frame.pixels(); ++i) {
     frame.color[i] = glm::vec3(colors[i][0], colors[i][1], colors[i][2]) / 255.0f;

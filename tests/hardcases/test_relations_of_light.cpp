@@ -98,7 +98,7 @@ TEST_CASE("MET-7: two lights of half the intensity are one") {
 TEST_CASE("MET-8: intensities times a power of two") {
   const auto scaled = [](const Frame& frame, float by) {
     Frame out = frame;
-    const auto scale = [&](std::vector<glm::vec3>& colors) {
+    const auto scale = [&](KeptArray<glm::vec3>& colors) {
       for (glm::vec3& color : colors)
         for (int c = 0; c < 3; ++c) color[c] = by * (std::abs(color[c]) < 0x1p-100f / by ? 0 : color[c]);
     };

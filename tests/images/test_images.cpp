@@ -10,9 +10,11 @@
 // look at it before you commit it. A failure leaves the actual picture and the difference in the build folder.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <glm/common.hpp>
+#include <span>
 
 #include "common/picture/image_io.h"
 #include "common/picture/tolerance.h"
@@ -33,7 +35,7 @@ bool blessing() {
 }
 
 // Per pixel the greatest channel of |actual - stored| / max(1, |stored|). (Dividing in float adds a relative 2^-23.)
-std::vector<double> relative_differences(std::vector<glm::vec3> actual, std::vector<glm::vec3> stored) {
+std::vector<double> relative_differences(KeptArray<glm::vec3> actual, std::vector<glm::vec3> stored) {
   for (std::size_t i = 0; i < stored.size(); ++i) {
     const glm::vec3 scale = glm::max(glm::vec3(1), glm::abs(stored[i]));
     actual[i] /= scale;
@@ -43,12 +45,12 @@ std::vector<double> relative_differences(std::vector<glm::vec3> actual, std::vec
 }
 
 void bless(const std::string& path, const Frame& actual) {
-  if (std::filesystem::exists(path) && colors(read_image(path)) == actual.color) return;
+  if (std::filesystem::exists(path) && std::ranges::equal(colors(read_image(path)), actual.color)) return;
   write_exr(path, actual);
   MESSAGE("blessed " << path);
 }
 
-void write_failure(const std::string& name, const Frame& actual, const std::vector<glm::vec3>& stored) {
+void write_failure(const std::string& name, const Frame& actual, std::span<const glm::vec3> stored) {
   std::filesystem::create_directories(kFailures);
   write_exr(kFailures + "/" + name + "_actual.exr", actual);
   Frame difference = actual;

@@ -38,11 +38,11 @@ inline void fill_with_noise(Frame& frame, unsigned seed) {
   const auto number = [&] {
     return static_cast<float>(static_cast<double>(generator()) * 0x1p-32 - 0.25) * 1e6f;
   };
-  const auto fill = [&](std::vector<glm::vec3>& values) {
+  const auto fill = [&](KeptArray<glm::vec3>& values) {
     for (glm::vec3& value : values) value = {number(), number(), number()};
   };
   fill(frame.color);
-  for (std::vector<glm::vec3>& layer : frame.rgb) fill(layer);
+  for (KeptArray<glm::vec3>& layer : frame.rgb) fill(layer);
   fill(frame.normal);
   for (float& depth : frame.depth) depth = number();
   for (float& tests : frame.cost) tests = number();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "common/picture/frame.h"
@@ -23,12 +24,12 @@ TEST_CASE("a frame holds what was asked for and nothing else") {
   CHECK(plain.sample_depth.empty());
 
   const Frame all = make_frame(7, 5, 2, options_with(kAllLayers, true));
-  for (const auto& layer : all.rgb) CHECK(layer == std::vector<glm::vec3>(35, glm::vec3(0)));
+  for (const auto& layer : all.rgb) CHECK(layer == KeptArray<glm::vec3>(35, glm::vec3(0)));
   CHECK(all.depth.size() == 35);
   CHECK(all.object_id.size() == 35);
   CHECK(all.primitive_id.size() == 35);
   CHECK(all.normal.size() == 35);
-  CHECK(all.cost == std::vector<float>(35, 0.0f));
+  CHECK(all.cost == KeptArray<float>(35, 0.0f));
   CHECK(all.sample_primitive.size() == 35 * 4);
   CHECK(all.sample_depth.size() == 35 * 4);
 
@@ -37,6 +38,36 @@ TEST_CASE("a frame holds what was asked for and nothing else") {
   CHECK(shadow.layer(Layer::reflection).empty());
   CHECK(shadow.object_id.size() == 35);
   CHECK(shadow.primitive_id.empty());
+}
+
+TEST_CASE("a frame starts with zeros, but for what its renderer writes, whatever its memory held") {
+  constexpr int kWidth = 1024, kHeight = 512;  // large enough for memory that is used again
+  RenderOptions options = options_with(layer_bit(Layer::shadow) | layer_bit(Layer::depth), true);
+  const auto spoil = [&] {
+    Frame frame = make_frame(kWidth, kHeight, 2, options);
+    frame.color.assign(frame.pixels(), glm::vec3(7));
+    frame.layer(Layer::shadow) = frame.color;
+    frame.depth.assign(frame.pixels(), 7);
+    frame.sample_primitive.assign(frame.sample_primitive.size(), 7);
+    frame.sample_depth.assign(frame.sample_depth.size(), 7);
+  };
+  const auto zero = [](const auto& array) {
+    using T = typename std::decay_t<decltype(array)>::value_type;
+    return std::count(array.begin(), array.end(), T{}) == static_cast<std::ptrdiff_t>(array.size());
+  };
+  spoil();
+  {
+    const Frame frame = make_frame(kWidth, kHeight, 2, options);
+    CHECK(zero(frame.color));
+    CHECK(zero(frame.layer(Layer::shadow)));
+    CHECK(zero(frame.depth));
+    CHECK(zero(frame.sample_primitive));
+    CHECK(zero(frame.sample_depth));
+  }
+  spoil();
+  const Frame frame = make_frame_to_write(kWidth, kHeight, 2, options, layer_bit(Layer::depth));
+  CHECK(zero(frame.layer(Layer::shadow)));
+  CHECK_FALSE(zero(frame.color));  // else this test tells nothing of memory that is used again
 }
 
 TEST_CASE("a cropped frame holds the crop only") {

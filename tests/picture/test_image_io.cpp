@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "common/error.h"
 #include "common/picture/image_io.h"
@@ -16,20 +18,20 @@ using namespace sidelight::test;
 namespace {
 
 // Equal in every bit, NaN and -0 included.
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+bool same_bits(std::span<const float> a, std::span<const float> b) {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](float x, float y) {
            return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
          });
 }
 
-std::vector<float> component(const std::vector<glm::vec3>& values, int axis) {
+std::vector<float> component(std::span<const glm::vec3> values, int axis) {
   std::vector<float> out;
   for (const glm::vec3& value : values) out.push_back(value[axis]);
   return out;
 }
 
 void check_rgb(const ImageFile& image, const std::string& prefix, const std::string& axes,
-               const std::vector<glm::vec3>& expected) {
+               std::span<const glm::vec3> expected) {
   for (int i = 0; i < 3; ++i) {
     const std::string name = prefix + axes[static_cast<std::size_t>(i)];
     CAPTURE(name);
@@ -55,8 +57,8 @@ void check_everything(const ImageFile& image, const Frame& frame) {
   check_rgb(image, "normal.", "XYZ", frame.normal);
   CHECK(same_bits(image.channels.at("depth.Z"), frame.depth));
   CHECK(same_bits(image.channels.at("cost.tests"), frame.cost));
-  CHECK(image.ids.at("object.id") == frame.object_id);
-  CHECK(image.ids.at("primitive.id") == frame.primitive_id);
+  CHECK(std::ranges::equal(image.ids.at("object.id"), frame.object_id));
+  CHECK(std::ranges::equal(image.ids.at("primitive.id"), frame.primitive_id));
 }
 
 Frame noisy_frame(int width, int height, const Rect& crop = {}) {

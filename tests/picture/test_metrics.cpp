@@ -74,14 +74,14 @@ TEST_CASE("black against white") {
 }
 
 TEST_CASE("one by one pixel, one code apart") {
-  const Metrics metrics = measure({{1, 1, 1}}, {{1, 1, 0.992f}}, 1, 1);  // 0.992 encodes to 254
+  const Metrics metrics = measure(Picture{{1, 1, 1}}, Picture{{1, 1, 0.992f}}, 1, 1);  // 0.992 encodes to 254
   CHECK(metrics.max.channel == 2);
   REQUIRE(metrics.psnr.has_value());
   CHECK(*metrics.psnr == doctest::Approx(10 * std::log10(255.0 * 255.0 * 3)).epsilon(1e-12));
 }
 
 TEST_CASE("differences too small for 8 bits: no psnr, but a mean") {
-  const Metrics metrics = measure({{0.5f, 0.5f, 0.5f}}, {{0.5f, 0.50001f, 0.5f}}, 1, 1);
+  const Metrics metrics = measure(Picture{{0.5f, 0.5f, 0.5f}}, Picture{{0.5f, 0.50001f, 0.5f}}, 1, 1);
   CHECK_FALSE(metrics.psnr.has_value());
   CHECK(metrics.mean > 0);
 }

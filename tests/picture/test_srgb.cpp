@@ -70,7 +70,7 @@ TEST_CASE("the encoder's table is the formula, float by float, and monotone") {
 }
 
 TEST_CASE("a picture is encoded pixel by pixel, top row first") {
-  const Image8 image = to_image8({{0, 0.5f, 1}, {2, -1, 0.18f}}, 1, 2);
+  const Image8 image = to_image8(std::vector<glm::vec3>{{0, 0.5f, 1}, {2, -1, 0.18f}}, 1, 2);
   CHECK(image.width == 1);
   CHECK(image.height == 2);
   CHECK(image.rgb == std::vector<std::uint8_t>{0, 188, 255, 255, 0, 118});

@@ -9,6 +9,7 @@
 
 using namespace sidelight;
 using Differences = std::vector<double>;
+using Picture = std::vector<glm::vec3>;
 
 namespace {
 
@@ -35,7 +36,7 @@ TEST_CASE("tolerance: the greatest channel counts, whichever picture is the brig
   CHECK(channel_difference(b, a) == 0.75);
   CHECK(channel_difference(a, a) == 0);
   CHECK(channel_difference(glm::vec3(0.0f), glm::vec3(-0.0f)) == 0);
-  Differences differences = pixel_differences({a, a}, {b, a});
+  Differences differences = pixel_differences(Picture{a, a}, Picture{b, a});
   CHECK(differences == Differences{0.75, 0});
   include_channel(differences, {1, 1}, {1, 0.5f});
   CHECK(differences == Differences{0.75, 0.5});
@@ -92,7 +93,7 @@ TEST_CASE("tolerance: what is not finite never passes, not even against itself")
     CHECK(channel_difference(bad, fine) == kInfinity);
     CHECK(channel_difference(fine, bad) == kInfinity);
     CHECK(channel_difference(bad, bad) == kInfinity);
-    const Differences differences = pixel_differences({fine, bad, bad}, {fine, fine, bad});
+    const Differences differences = pixel_differences(Picture{fine, bad, bad}, Picture{fine, fine, bad});
     const Excess excess = count_excess(differences, everything);
     CHECK(excess.non_finite == 2);
     CHECK(excess.over == 2);

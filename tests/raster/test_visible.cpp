@@ -181,3 +181,27 @@ TEST_CASE("visible: a lattice of 16384 columns, of which a corner is drawn") {
   }
   judged(scene_of(mesh_of(positions, faces)), camera, corner);
 }
+
+TEST_CASE("visible: every pixel is written, whatever the frame's memory held") {
+  Random random(73);
+  const Camera camera = make_camera({{0, 0, 4}, {0, 0, 0}}, 1280, 1024, 1);  // memory used again
+  Scene scene = scene_of(shards(random, camera, 300, 2, 0.2));
+  add_sphere(scene, {{1, 0, 0}, 0.5, 0}, {});
+  RenderOptions options = keeping(kRasterLayers);
+  const Frame first = rastered(scene, camera, options);
+  {
+    Frame spoiled = first;
+    const auto spoil = [](auto& array) {
+      std::memset(static_cast<void*>(array.data()), 0xff, array.size() * sizeof(array[0]));
+    };
+    spoil(spoiled.color);
+    for (auto& layer : spoiled.rgb) spoil(layer);
+    spoil(spoiled.depth);
+    spoil(spoiled.object_id);
+    spoil(spoiled.primitive_id);
+    spoil(spoiled.normal);
+    spoil(spoiled.sample_primitive);
+    spoil(spoiled.sample_depth);
+  }
+  CHECK(differences(rastered(scene, camera, options), first) == "");
+}

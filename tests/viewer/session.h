@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ inline void save_later(const std::string& file, const std::string& text) {
   std::filesystem::last_write_time(file, before + std::chrono::seconds(2));
 }
 
-inline bool same_bits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+inline bool same_bits(std::span<const glm::vec3> a, std::span<const glm::vec3> b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures kept between runs: found again in every bit, never believed when damaged, and not needed.
+#include <algorithm>
 #include <cstdlib>
 
 #include "tests/picture/folder.h"
@@ -20,7 +21,7 @@ Frame noise(int width, int height, unsigned seed) {
 
 bool finds(const PictureCache& cache, const std::string& key, const Frame& frame) {
   const auto found = cache.find(key, frame.width(), frame.height());
-  return found && found->color == frame.color;
+  return found && std::ranges::equal(found->color, frame.color);
 }
 
 // A lit sphere, small enough to be traced in no time.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <span>
 #include <string_view>
 
 #include "common/content_hash.h"
@@ -17,7 +18,7 @@ std::string hash_of(std::string_view bytes) {
   hash.add(bytes);
   return hash.hex();
 }
-std::string hash_of(const std::vector<glm::vec3>& colors) {
+std::string hash_of(std::span<const glm::vec3> colors) {
   return hash_of({reinterpret_cast<const char*>(colors.data()), colors.size() * sizeof(glm::vec3)});
 }
 
@@ -74,7 +75,7 @@ bool PictureCache::keep(const std::string& key, const Frame& frame, const Metada
   all.emplace_back("key", key);
   all.emplace_back("checksum", hash_of(frame.color));
   Frame colors_only = frame;
-  for (std::vector<glm::vec3>& layer : colors_only.rgb) layer.clear();
+  for (KeptArray<glm::vec3>& layer : colors_only.rgb) layer.clear();
   try {
     make_folder(folder_.string());
     write_exr(file_of(key).string(), colors_only, all);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <span>
 
 namespace sidelight {
 namespace {
@@ -16,8 +17,8 @@ double gain_for(const ErrorMeasure& error) {
   return std::exp2(std::clamp(std::floor(std::log2(0.5 / error.p999)), 0.0, 24.0));
 }
 
-Image8 difference_picture(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, double gain,
-                          int width, int height) {
+Image8 difference_picture(std::span<const glm::vec3> a, std::span<const glm::vec3> b, double gain, int width,
+                          int height) {
   std::vector<glm::vec3> out(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) out[i] = static_cast<float>(gain) * glm::abs(a[i] - b[i]);
   return to_image8(out, width, height);
@@ -35,7 +36,7 @@ void add_counts(const Frame& frame, BenchPoint& point) {
 
 }  // namespace
 
-const std::vector<glm::vec3>& PictureJudge::truth_of(const Model& model, int n) {
+std::span<const glm::vec3> PictureJudge::truth_of(const Model& model, int n) {
   const auto [at, added] = truths_.try_emplace({model, n});
   if (added) at->second = stage_.render_in_double(model, stage_.camera(n)).color;
   return at->second;
@@ -49,10 +50,10 @@ void PictureJudge::judge(const Setting& setting, BenchPoint& point) {
 
   // Gates: what is seen, and whether all of it is a number.
   const VisibleError visible = visible_.compare(setting, frame);
-  const auto error_against = [&](const std::vector<glm::vec3>& picture, const std::vector<glm::vec3>& truth) {
+  const auto error_against = [&](std::span<const glm::vec3> picture, std::span<const glm::vec3> truth) {
     return picture_error(picture, truth, visible.covered, width, height);
   };
-  const std::vector<glm::vec3>& reference = reference_.picture(reference_n_).color;
+  const std::span<const glm::vec3> reference = reference_.picture(reference_n_).color;
   point.error = error_against(frame.color, reference);
   point.error.whole.depth = point.error.covered.depth = visible.depth_error;
   point.mismatches = visible.mismatches;
@@ -62,8 +63,8 @@ void PictureJudge::judge(const Setting& setting, BenchPoint& point) {
     point.failures.push_back(fmt::format("values that are not finite: {}", bad));
 
   // By kind.
-  const std::vector<glm::vec3>& truth = truth_of(stage_.model_of(setting), setting.n);
-  const std::vector<glm::vec3>& full = reference_.picture(setting.n).color;
+  const std::span<const glm::vec3> truth = truth_of(stage_.model_of(setting), setting.n);
+  const std::span<const glm::vec3> full = reference_.picture(setting.n).color;
   const auto kind = [&](ErrorKind which) -> std::optional<PictureError>& {
     return point.by_kind[static_cast<std::size_t>(which)];
   };

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 
 #include "viewer/bench/reference.h"
 #include "viewer/bench/visible.h"
@@ -24,13 +25,13 @@ class PictureJudge {
   void judge(const Setting& setting, BenchPoint& point);
 
  private:
-  const std::vector<glm::vec3>& truth_of(const Model& model, int n);
+  std::span<const glm::vec3> truth_of(const Model& model, int n);
 
   Stage& stage_;
   Reference& reference_;
   int reference_n_;
   VisibleJudge visible_{stage_};
-  std::map<std::pair<Model, int>, std::vector<glm::vec3>> truths_;
+  std::map<std::pair<Model, int>, KeptArray<glm::vec3>> truths_;
 };
 
 }  // namespace sidelight

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <glm/gtx/component_wise.hpp>
+#include <span>
 
 namespace sidelight {
 namespace {
@@ -18,7 +19,7 @@ double number(const std::string& text) {
   return value;
 }
 
-double rmse(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, const Scene& scene) {
+double rmse(std::span<const glm::vec3> a, std::span<const glm::vec3> b, const Scene& scene) {
   return measure(a, b, scene.width, scene.height).rms;
 }
 
@@ -100,7 +101,7 @@ const Reference::Picture& Reference::picture(int n) {
     out.model = {{}, static_cast<int>(number(kept->notes["depth"])), number(kept->notes["cut"]), false};
     out.cut_weight = number(kept->notes["cut_weight"]);
     out.steps = number(kept->notes["steps"]);
-    out.color = std::move(kept->color);
+    out.color.assign(kept->color.begin(), kept->color.end());
     if (const std::string& text = kept->notes["against_brute_force"]; !text.empty())
       out.against_brute_force = number(text);
     return pictures_.emplace(n, std::move(out)).first->second;

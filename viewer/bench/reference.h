@@ -40,7 +40,7 @@ class Reference {
     double cut_weight = 0;
     double steps = 0;                           // a pixel
     std::optional<double> against_brute_force;  // of n = 1
-    std::vector<glm::vec3> color;
+    KeptArray<glm::vec3> color;
   };
   // The full model with n x n samples, from memory, from the cache, or made.
   const Picture& picture(int n);

@@ -26,8 +26,8 @@ class VisibleJudge {
 
  private:
   struct Samples {
-    std::vector<std::uint32_t> primitive;
-    std::vector<double> depth;
+    KeptArray<std::uint32_t> primitive;
+    KeptArray<double> depth;
   };
   const Samples& exact(bool raster, int n);
 

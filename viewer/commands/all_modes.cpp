@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <span>
+
 #include "common/picture/compare.h"
 #include "common/picture/layer_picture.h"
 #include "common/picture/signed_difference.h"
@@ -29,12 +31,12 @@ void write_all_modes(const Job& job, const std::string& folder, const Frame& ras
   write_layers(job, folder, *find_renderer("raytrace"), traced);
 
   const Metadata both = job_metadata(job, "raster, raytrace");
-  const auto write = [&](const std::string& name, const std::vector<glm::vec3>& linear) {
+  const auto write = [&](const std::string& name, std::span<const glm::vec3> linear) {
     write_png(folder + "/" + name, to_image8(linear, traced.width(), traced.height()), both);
   };
   constexpr std::array<const char*, 4> kSteps{"1_raster", "2_minus_shadow", "3_plus_reflection",
                                               "4_plus_refraction"};
-  const std::array<std::vector<glm::vec3>, 4> sums = ledger_sums(rastered, traced);
+  const auto sums = ledger_sums(rastered, traced);
   for (std::size_t k = 0; k < sums.size(); ++k) write(fmt::format("ledger_{}.png", kSteps[k]), sums[k]);
   write("signed_difference.png", signed_difference(rastered, traced));
 }

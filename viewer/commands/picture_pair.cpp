@@ -98,8 +98,17 @@ Picture read_picture(const std::string& path) {
 }
 
 Picture picture_of(const Frame& frame, const std::string& name) {
-  return {name,        false, frame.full_width, frame.full_height, frame.window,
-          frame.color, {},    frame.depth,      frame.object_id,   frame.primitive_id};
+  const auto copied = [](const auto& array) { return std::vector(array.begin(), array.end()); };
+  return {name,
+          false,
+          frame.full_width,
+          frame.full_height,
+          frame.window,
+          copied(frame.color),
+          {},
+          copied(frame.depth),
+          copied(frame.object_id),
+          copied(frame.primitive_id)};
 }
 
 PicturePair::PicturePair(Picture first, Picture second) : a(std::move(first)), b(std::move(second)) {
@@ -116,7 +125,7 @@ glm::vec3 PicturePair::value(const glm::vec3& linear) const {
                : linear;
 }
 
-std::vector<glm::vec3> PicturePair::values(const std::vector<glm::vec3>& linear) const {
+std::vector<glm::vec3> PicturePair::values(std::span<const glm::vec3> linear) const {
   std::vector<glm::vec3> out(linear.size());
   std::transform(linear.begin(), linear.end(), out.begin(),
                  [&](const glm::vec3& color) { return value(color); });

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct PicturePair {
 
   // What is compared for a linear colour.
   glm::vec3 value(const glm::vec3& linear) const;
-  std::vector<glm::vec3> values(const std::vector<glm::vec3>& linear) const;
+  std::vector<glm::vec3> values(std::span<const glm::vec3> linear) const;
   int width() const { return window.width(); }
   int x(std::size_t i) const { return window.x0 + static_cast<int>(i % static_cast<std::size_t>(width())); }
   int y(std::size_t i) const { return window.y0 + static_cast<int>(i / static_cast<std::size_t>(width())); }

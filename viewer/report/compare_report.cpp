@@ -181,7 +181,7 @@ Html rastered_step(const CompareReport& report) {
 }
 
 // The term, and the sum with it.
-Html term_step(const CompareReport& report, const Term& term, const Picture& sum) {
+Html term_step(const CompareReport& report, const Term& term, std::span<const glm::vec3> sum) {
   const bool last = term.layer == Layer::refraction;
   const Html caption = last ? html("<b>{}</b>, and this is the ray tracer's picture.", term.sum)
                             : html("<b>{}</b>, so far.", term.sum);
@@ -198,7 +198,7 @@ Html term_step(const CompareReport& report, const Term& term, const Picture& sum
 
 Html ledger(const CompareReport& report) {
   std::vector<StepPage> pages{{"R", rastered_step(report)}};
-  const std::array<Picture, 4> sums = ledger_sums(report.rastered, report.traced);
+  const auto sums = ledger_sums(report.rastered, report.traced);
   const std::array<Term, 3> added = terms(report.result);
   for (std::size_t k = 0; k < added.size(); ++k)
     pages.push_back({added[k].symbol, term_step(report, added[k], sums[k + 1])});

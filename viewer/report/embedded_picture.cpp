@@ -16,7 +16,7 @@ int embedding_reduction(const Frame& frame) {
   return factor;
 }
 
-Image8 embedded_picture(const std::vector<glm::vec3>& picture, const Frame& frame) {
+Image8 embedded_picture(std::span<const glm::vec3> picture, const Frame& frame) {
   const int factor = embedding_reduction(frame);
   if (factor == 1) return to_image8(picture, frame.width(), frame.height());
   const int width = std::max(1, frame.width() / factor), height = std::max(1, frame.height() / factor);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "common/picture/frame.h"
@@ -14,6 +15,6 @@ namespace sidelight {
 int embedding_reduction(const Frame& frame);
 
 // One of its pictures: blocks of factor x factor pixels become their mean; what is left over at the edges is cut off.
-Image8 embedded_picture(const std::vector<glm::vec3>& picture, const Frame& frame);
+Image8 embedded_picture(std::span<const glm::vec3> picture, const Frame& frame);
 
 }  // namespace sidelight

@@ -15,7 +15,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 using SharedFrame = std::shared_ptr<const Frame>;
-using Colors = std::vector<glm::vec3>;
+using Colors = std::span<const glm::vec3>;
 
 Lines number_lines(const glm::vec3& v) {
   return {fmt::format("{:.4f}", v.x), fmt::format("{:.4f}", v.y), fmt::format("{:.4f}", v.z)};
@@ -69,7 +69,7 @@ bool has_layer(const Frame& frame, Layer layer) {
   }
 }
 
-Image8 picture_of(const Frame& frame, const Colors& colors) {
+Image8 picture_of(const Frame& frame, Colors colors) {
   return to_image8(colors, frame.width(), frame.height());
 }
 
@@ -100,7 +100,7 @@ class ShownMaker {
     ShownPanel out =
         right(state_.slow ? fmt::format("ray tracer: {} of {} rows", state_.rows, state_.scene->height)
                           : traced_name());
-    Colors colors = frame.color;
+    KeptArray<glm::vec3> colors = frame.color;
     if (state_.slow && full()) {
       const std::ptrdiff_t rows = std::clamp(state_.rows - frame.window.y0, 0, frame.height());
       std::fill(colors.begin() + rows * frame.width(), colors.end(), glm::vec3(0));
@@ -127,18 +127,18 @@ class ShownMaker {
     return out;
   }
 
-  ShownPanel colors(std::string name, const Colors& colors, bool of_left) const {
+  ShownPanel colors(std::string name, Colors colors, bool of_left) const {
     ShownPanel out = of_left ? left(std::move(name)) : right(std::move(name));
     out.image = picture_of(*pictures_.traced, colors);
-    out.numbers = numbers_of(pictures_.traced, full(),
-                             [all = std::make_shared<const Colors>(colors)](const Frame&, std::size_t i) {
-                               return number_lines((*all)[i]);
-                             });
+    out.numbers =
+        numbers_of(pictures_.traced, full(),
+                   [all = std::make_shared<const std::vector<glm::vec3>>(colors.begin(), colors.end())](
+                       const Frame&, std::size_t i) { return number_lines((*all)[i]); });
     return out;
   }
 
   // The map's colours say which; the numbers under the glass say how much.
-  ShownPanel difference(std::string name, const Colors& map) const {
+  ShownPanel difference(std::string name, Colors map) const {
     ShownPanel out = colors(std::move(name), map, false);
     out.numbers =
         numbers_of(pictures_.traced, full(), [r = pictures_.rastered](const Frame& f, std::size_t i) {
