@@ -13,9 +13,9 @@ namespace {
 // Places are sorted where groups as they come have more than this times the area of all.
 constexpr double kApart = 1.5;
 
-// What a packet may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget,
+// What a group may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget,
 // that is about as much as they would do alone.
-constexpr int kPacketWork = 128, kRayWork = 4;
+constexpr int kGroupWork = 64;
 
 // Points nearer to the light than this have no direction from it that a double could hold.
 constexpr double kLeastDepth = 1e-100;
@@ -216,11 +216,11 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, const Exte
     packet_.least_w[g - first] = static_cast<float>(groups_[g].least_per_depth);
   }
   start(packet_);
-  packet_.budget = kPacketWork + kRayWork * packet_.size;
+  packet_.budget.fill(kGroupWork);
   trace_packet(isa_, prepared_, packet_, counts);
-  const bool all = packet_.budget >= 0;
   for (std::size_t i = 0; i < places.size(); ++i)
-    dark[number_[i]] = packet_.primitive[i] >= 0 || (!all && is_dark(number_[i], counts));
+    dark[number_[i]] =
+        packet_.primitive[i] >= 0 || (packet_.budget[i / kGroup] < 0 && is_dark(number_[i], counts));
 }
 
 // Alone.
