@@ -17,7 +17,8 @@ struct PacketPlane {
 // What boxes are asked: their least and greatest q = (s u, s v, s) (packet_setup.h), and which groups of rays lie there.
 struct PacketBounds {
   std::array<PacketPlane, 3> least, greatest;
-  // Of each group, a little wider than its rays, for the rounding of u and v and of what they are compared to.
+  // A little wider than the rays, for the rounding of u and v and of what they are compared to: of all, and of each group.
+  float extent_u, extent_v;
   alignas(64) RayPacket::PerGroup<float> low_u, high_u, low_v, high_v;
 };
 
@@ -48,6 +49,8 @@ inline PacketBounds packet_bounds(const RayPacket& p, const PacketAxes& axes, co
     return 0x1p-20f * extent + static_cast<float>((1 + 0x1p-20) * p.place_error);
   };
   const float more_u = wider(p.extent_u), more_v = wider(p.extent_v);
+  out.extent_u = p.extent_u + more_u;
+  out.extent_v = p.extent_v + more_v;
   for (std::size_t g = 0; g < p.least_w.size(); ++g) {
     out.low_u[g] = p.group_u[0][g] - more_u;
     out.high_u[g] = p.group_u[1][g] + more_u;
@@ -57,11 +60,11 @@ inline PacketBounds packet_bounds(const RayPacket& p, const PacketAxes& axes, co
   return out;
 }
 
-// Of eight boxes: those that do not lie behind, as bits, the depth from which on each lies, and what it is within.
+// Of eight boxes: those that the packet may meet, as bits, the depth from which on each lies, and what it is within.
 struct BoxesSeen {
   using Row = std::array<float, BvhNode::kWidth>;
   alignas(64) Row depth, low_u, high_u, low_v, high_v;
-  std::uint32_t ahead = 0;
+  std::uint32_t met = 0;
 };
 
 template <class B>
@@ -75,18 +78,22 @@ BoxesSeen see_boxes(const BvhNode& node, const PacketBounds& bounds) {
       return ((part(0) + part(1)) + part(2)) - B(plane.offset);
     };
     const B first = at(bounds.least[2]), last = at(bounds.greatest[2]);
-    seen.ahead |= mask_bits<B>(last >= B(0)) << lane;
+    Mask<B> met = last >= B(0);
     store(lane_max<B>(first, B(0)), &seen.depth[lane]);
     // Of a box that holds places beside the origin nothing is known.
     const Mask<B> clear = first >= B(1 / kFar);
     const B per_first = B(1) / select<B>(clear, first, B(1)), per_last = B(1) / select<B>(clear, last, B(1));
-    const auto within = [&](std::size_t k, BoxesSeen::Row& low_row, BoxesSeen::Row& high_row) {
-      const B low = at(bounds.least[k]), high = at(bounds.greatest[k]);
-      store(select<B>(clear, lane_min<B>(low * per_first, low * per_last), B(-kFar)), &low_row[lane]);
-      store(select<B>(clear, lane_max<B>(high * per_first, high * per_last), B(kFar)), &high_row[lane]);
+    const auto within = [&](std::size_t k, float extent, BoxesSeen::Row& low_row, BoxesSeen::Row& high_row) {
+      const B least = at(bounds.least[k]), greatest = at(bounds.greatest[k]);
+      const B low = select<B>(clear, lane_min<B>(least * per_first, least * per_last), B(-kFar)),
+              high = select<B>(clear, lane_max<B>(greatest * per_first, greatest * per_last), B(kFar));
+      met = met && low <= B(extent) && high >= B(-extent);
+      store(low, &low_row[lane]);
+      store(high, &high_row[lane]);
     };
-    within(0, seen.low_u, seen.high_u);
-    within(1, seen.low_v, seen.high_v);
+    within(0, bounds.extent_u, seen.low_u, seen.high_u);
+    within(1, bounds.extent_v, seen.low_v, seen.high_v);
+    seen.met |= mask_bits<B>(met) << lane;
   }
   return seen;
 }
@@ -104,7 +111,7 @@ std::uint32_t groups_within(const PacketBounds& bounds, const BoxesSeen& seen, s
   return bits;
 }
 
-// Those that do not surely keep something nearer than this; none of whose rays are all done.
+// Those that have rays which are not done and do not surely keep something nearer than this.
 template <class F>
 std::uint32_t groups_beyond(const RayPacket& p, float depth) {
   std::uint32_t bits = 0;
@@ -161,7 +168,7 @@ void push_children(const Tree& leaves, const BvhNode& node, const PacketBounds& 
                    PacketStack& stack) {
   const BoxesSeen seen = see_boxes<B>(node, bounds);
   const std::size_t base = stack.size;
-  for (std::uint32_t bits = seen.ahead; bits != 0; bits &= bits - 1) {
+  for (std::uint32_t bits = seen.met; bits != 0; bits &= bits - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(bits));
     const std::uint32_t within = groups & groups_within<F>(bounds, seen, i);
     if (within == 0) continue;
