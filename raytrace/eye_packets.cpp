@@ -74,6 +74,7 @@ void EyePackets::load(int X0, int Y0, int columns, int rows) {
   packet_.W = camera_.direction(X0 + kEdge / 2, Y0 + kEdge / 2);
   packet_.w.fill(0);
   packet_.least_w.fill(0);
+  packet_.budget.fill(std::numeric_limits<std::int32_t>::max());
   start(packet_);
 }
 

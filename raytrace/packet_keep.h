@@ -80,15 +80,41 @@ void update_least(RayPacket& p, std::uint32_t groups) {
     const auto g = static_cast<std::size_t>(std::countr_zero(groups));
     p.least_w[g] = least_of_group<F>(p, g);
   }
-  float low = p.least_w[0];
-  for (std::size_t g = 1; g < static_cast<std::size_t>(p.groups); ++g) low = lane_min(low, p.least_w[g]);
-  p.least = low;
 }
 
-template <class F>
-bool casts_none(const Prepared& prepared, const RayPacket& p, std::uint32_t primitive) {
+inline bool casts_none(const Prepared& prepared, const RayPacket& p, std::uint32_t primitive) {
   if (!p.any_hit || p.all_cast) return false;
   return !prepared.scene.materials[primitive_material(prepared.scene, primitive)].casts_shadow;
+}
+
+// ---- The items of a leaf side by side, and groups of rays ----
+
+using PerItem = std::array<float, Bvh::kMaxLeaf>;
+
+// Sets what hides a primitive from rays where it casts no shadow and is asked for one.
+inline void hide_what_casts_none(const Prepared& prepared, const RayPacket& p,
+                                 const std::uint32_t* primitives, std::uint32_t count, PerItem& row,
+                                 float hidden) {
+  if (!p.any_hit || p.all_cast) return;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (casts_none(prepared, p, primitives[i])) row[i] = hidden;
+}
+
+// An item, and rays from this one on: i << 8 | ray.
+using Pairs = std::array<std::int32_t, Bvh::kMaxLeaf * RayPacket::kCapacity + RayPacket::kGroups>;
+struct ItemAndRay {
+  std::size_t i, ray;
+};
+inline ItemAndRay item_and_ray(std::int32_t pair) {
+  return {static_cast<std::size_t>(pair >> 8), static_cast<std::size_t>(pair & 255)};
+}
+
+// Adds group g with each item, from `lane` on, that it may meet. Returns how many.
+template <class B>
+std::size_t add_pairs(const Mask<B>& met, std::size_t lane, std::size_t g, std::int32_t* pairs) {
+  using I = Ints<B>;
+  const I items = generate<I>([](int k) { return k << 8; });
+  return store_some<B>(met, items + I(static_cast<std::int32_t>(lane << 8 | g * RayPacket::kGroup)), pairs);
 }
 
 }  // namespace sidelight::raytrace

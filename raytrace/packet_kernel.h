@@ -9,8 +9,9 @@
 namespace sidelight::raytrace {
 
 // A plane is a triangle without edges.
-template <class F>
+template <class F, class B>
 void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive, SignCounts& counts) {
+  if (casts_none(prepared, p, primitive)) return;
   const Plane& plane = prepared.scene.planes[primitive_ref(prepared.scene, primitive).index];
   const Vec3<double> n{plane.normal.x, plane.normal.y, plane.normal.z};
   const auto along = [&](const glm::dvec3& d) { return (n.x * d.x + n.y * d.y) + n.z * d.z; };
@@ -24,7 +25,7 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
            lane_abs(c)) +
       p.place_error * (lane_abs(x) + lane_abs(y)) + 0x1p-46 * p.length * lane_abs(per_h);
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  LeafSetup s;
+  LeafSetup s{};
   for (std::size_t k = 0; k < 3; ++k) {
     s.x[k][0] = s.y[k][0] = 0;
     s.c[k][0] = 1;
@@ -34,10 +35,10 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
   s.wy[0] = static_cast<float>(y);
   s.wc[0] = static_cast<float>(c);
   s.w_error[0] = sure ? static_cast<float>(error) : kInfinity;
+  s.low_u.fill(kInfinity);
   s.low_u[0] = s.low_v[0] = -kFar;
   s.high_u[0] = s.high_v[0] = kFar;
-  s.alive = 1;
-  test_set_up<F>(prepared, p, s, &primitive, counts);
+  test_set_up<F, B>(p, s, (1u << p.groups) - 1, &primitive, counts);
 }
 
 template <class D>
@@ -54,9 +55,9 @@ void find_squares(RayPacket& p) {
 template <class F, class B, class D>
 void meet_all(const Prepared& prepared, RayPacket& p, SignCounts& counts) {
   const PacketAxes axes = packet_axes(p);
-  for (const std::uint32_t plane : prepared.planes) test_plane<F>(prepared, p, plane, counts);
+  for (const std::uint32_t plane : prepared.planes) test_plane<F, B>(prepared, p, plane, counts);
   walk_packet<F, B, D>(prepared, axes, prepared.triangles, p, counts);
-  if (prepared.spheres.bvh.nodes.empty() || p.budget < 0) return;
+  if (prepared.spheres.bvh.nodes.empty()) return;
   find_squares<D>(p);
   walk_packet<F, B, D>(prepared, axes, prepared.spheres, p, counts);
 }

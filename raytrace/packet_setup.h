@@ -18,6 +18,8 @@
 // near in space.
 #pragma once
 
+#include <algorithm>
+
 #include "raytrace/packet_keep.h"
 
 namespace sidelight::raytrace {
@@ -51,13 +53,13 @@ inline PacketAxes packet_axes(const RayPacket& p) {
 
 constexpr float kFar = 1e30f;  // farther than any u and v
 
+// Of the triangles of a leaf.
 struct LeafSetup {
-  using Row = std::array<float, 8>;
-  alignas(64) std::array<Row, 3> x, y, c;  // E_k = x u + y v + c up to a positive factor, of values up to 1
-  alignas(64) Row doubt;  // an |E_k| not above it may have either sign; 2 where the side is not sure
-  alignas(64) Row wx, wy, wc, w_error;           // 1/t; w_error is infinite where the side is not sure
-  alignas(64) Row low_u, high_u, low_v, high_v;  // what the triangle is within; of eye rays, whole numbers
-  std::uint32_t alive = 0;                       // triangles whose rectangle holds anything, as bits
+  alignas(64) std::array<PerItem, 3> x, y, c;  // E_k = x u + y v + c up to a positive factor, up to 1
+  alignas(64) PerItem doubt;  // an |E_k| not above it may have either sign; 2 where the side is not sure
+  alignas(64) PerItem wx, wy, wc, w_error;  // 1/t; w_error is infinite where the side is not sure
+  // What the triangle is within; of eye rays, whole numbers. low_u is infinite where no ray is to be asked about it.
+  alignas(64) PerItem low_u, high_u, low_v, high_v;
 };
 
 template <class D>
@@ -86,11 +88,12 @@ std::array<D, 3> extents(const RayPacket& p) {
   return wide<D>({static_cast<double>(p.extent_u), static_cast<double>(p.extent_v), 1});
 }
 
-// The rectangle of (u, v) that surely holds the triangle; all of the plane where it does not lie ahead, nothing where it
-// lies behind. u is off by 2^-22 of it, for the quotient and s, and by what the error of a place makes, and of a ray.
+// The rectangle of (u, v) that surely holds the triangle; all of the plane where it does not lie ahead; nothing where it
+// lies behind, where all rays pass beside it, and where it is not `asked`. Whether any of them holds something. u is off by
+// 2^-22 of it, for the quotient and s, and by what the error of a place makes, and of a ray.
 template <class D>
-Mask<D> set_up_rectangle(const RayPacket& p, const PacketAxes& axes, const std::array<Vec3<D>, 3>& q,
-                         const D& l, std::size_t lane, LeafSetup& out) {
+bool set_up_rectangle(const RayPacket& p, const PacketAxes& axes, const std::array<Vec3<D>, 3>& q, const D& l,
+                      const Mask<D>& asked, std::size_t lane, LeafSetup& out) {
   const D low_s = lane_min<D>(lane_min<D>(q[0].z, q[1].z), q[2].z),
           high_s = lane_max<D>(lane_max<D>(q[0].z, q[1].z), q[2].z);
   const D clear = mul_add(D(axes.ahead_l), l, D(axes.ahead_0));
@@ -100,9 +103,10 @@ Mask<D> set_up_rectangle(const RayPacket& p, const PacketAxes& axes, const std::
   const D most_per_s = lane_max<D>(lane_max<D>(per_s[0], per_s[1]), per_s[2]);
   const D place = D(p.near_error * p.reach + 0x1p-46 * p.distance) + D(0x1p-46) * l;
   const D ray((0x1p-48 + p.near_error) * p.length);
-  Mask<D> alive = !behind;
-  const auto axis = [&](const D& a, const D& b, const D& c, double per_place, float extent, auto& low_row,
-                        auto& high_row) {
+  struct Interval {
+    D from, to;
+  };
+  const auto axis = [&](const D& a, const D& b, const D& c, double per_place) {
     const D low = lane_min<D>(lane_min<D>(a, b), c), high = lane_max<D>(lane_max<D>(a, b), c);
     const D margin = mul_add(D(per_place), mul_add(place, most_per_s, ray),
                              mul_add(D(0x1p-22), lane_max<D>(-low, high), D(p.place_error)));
@@ -111,18 +115,23 @@ Mask<D> set_up_rectangle(const RayPacket& p, const PacketAxes& axes, const std::
       from = lane_ceil(from);
       to = lane_floor(to);
     }
-    from = select<D>(ahead, lane_max<D>(from, D(static_cast<double>(-kFar))), D(static_cast<double>(-kFar)));
-    to = select<D>(ahead, lane_min<D>(to, D(static_cast<double>(kFar))), D(static_cast<double>(kFar)));
-    const D most(static_cast<double>(extent));
-    alive = alive && from <= to && from <= most && to >= -most;
-    store(to_float<D>(from), &low_row[lane]);
-    store(to_float<D>(to), &high_row[lane]);
+    const D far(static_cast<double>(kFar));
+    return Interval{select<D>(ahead, lane_max<D>(from, -far), -far),
+                    select<D>(ahead, lane_min<D>(to, far), far)};
   };
-  axis(per_s[0] * q[0].x, per_s[1] * q[1].x, per_s[2] * q[2].x, axes.per_place[0], p.extent_u, out.low_u,
-       out.high_u);
-  axis(per_s[0] * q[0].y, per_s[1] * q[1].y, per_s[2] * q[2].y, axes.per_place[1], p.extent_v, out.low_v,
-       out.high_v);
-  return alive;
+  const auto holds_some = [&](const Interval& of, float extent) {
+    const D most(static_cast<double>(extent));
+    return of.from <= of.to && of.from <= most && of.to >= -most;
+  };
+  const Interval u = axis(per_s[0] * q[0].x, per_s[1] * q[1].x, per_s[2] * q[2].x, axes.per_place[0]),
+                 v = axis(per_s[0] * q[0].y, per_s[1] * q[1].y, per_s[2] * q[2].y, axes.per_place[1]);
+  const Mask<D> alive = asked && !behind && holds_some(u, p.extent_u) && holds_some(v, p.extent_v);
+  const D nowhere(std::numeric_limits<double>::infinity());
+  store(to_float<D>(select<D>(alive, u.from, nowhere)), &out.low_u[lane]);
+  store(to_float<D>(u.to), &out.high_u[lane]);
+  store(to_float<D>(v.from), &out.low_v[lane]);
+  store(to_float<D>(v.to), &out.high_v[lane]);
+  return any<D>(alive);
 }
 
 // What the edges need of the plane.
@@ -176,9 +185,9 @@ void set_up_edges(const RayPacket& p, const PacketAxes& axes, const std::array<V
   store(to_float<D>(select<D>(plane.sure, doubt + D(0x1p-21), D(2))), &out.doubt[lane]);
 }
 
-// Triangles from `lane` on, of the `count` of a leaf.
+// Triangles from `lane` on, of the `count` of a leaf. Whether there is anything to ask of them.
 template <class D>
-void set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
+bool set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
                       std::size_t lane, LeafSetup& out) {
   const auto corner = [&](std::uint32_t k) {
     const double* row = leaf + lane + 3 * k * count;
@@ -194,11 +203,23 @@ void set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* 
   const D m = lane_max<D>(l1(e1), l1(e2)), l = l1(a0) + m;
   const Vec3<D> q0 = in_axes(a0), q1 = in_axes(e1), q2 = in_axes(e2);
   const std::array<Vec3<D>, 3> q{q0, q0 + q1, q0 + q2};
-  const Mask<D> alive = set_up_rectangle<D>(p, axes, q, l, lane, out);
-  out.alive |= mask_bits<D>(alive) << lane;
-  if (!any<D>(alive)) return;
+  const Mask<D> asked = lane_numbers<D>() < D(static_cast<double>(count) - static_cast<double>(lane));
+  if (!set_up_rectangle<D>(p, axes, q, l, asked, lane, out)) return false;
   const PlaneSetup<D> plane = set_up_depth<D>(p, axes, q0, fused_cross(q1, q2), l, m, lane, out);
   set_up_edges<D>(p, axes, q, l, plane, lane, out);
+  return true;
+}
+
+template <class D>
+bool set_up_leaf(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
+                 LeafSetup& out) {
+  bool any_asked = false;
+  for (std::size_t lane = 0; lane < Bvh::kMaxLeaf; lane += kLanes<D>)
+    if (lane < count)
+      any_asked |= set_up_triangles<D>(p, axes, leaf, count, lane, out);
+    else
+      std::fill_n(&out.low_u[lane], kLanes<D>, std::numeric_limits<float>::infinity());
+  return any_asked;
 }
 
 }  // namespace sidelight::raytrace

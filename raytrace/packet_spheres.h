@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A packet against the spheres of a leaf, one by one. See packet_kernel.h.
+// A packet against the spheres of a leaf: set up together, then each against the groups that may meet it. See
+// packet_kernel.h.
 #pragma once
 
 #include "raytrace/packet_setup.h"
@@ -16,121 +17,134 @@ namespace sidelight::raytrace {
 // by 2^-46 ((|f| + r + distance) / r)² in visibility.h; and its root by that over itself. Depths are told for an origin
 // well off the surface.
 struct SphereSetup {
-  std::array<float, 3> gx, gy, gc;  // g = gx u + gy v + gc
-  float doubt;                      // of D
-  float bx, by, bc, root;           // 1/t = bx u + by v + bc + root sqrt D
-  float b_error, root_error;        // of 1/t: b_error + root_error / sqrt D
-  bool sure = false;                // whether 1/t is known where it is surely met
+  alignas(64) std::array<PerItem, 3> gx, gy, gc;  // g = gx u + gy v + gc
+  alignas(64) PerItem doubt;                      // of D
+  alignas(64) PerItem bx, by, bc, root;           // 1/t = bx u + by v + bc + root sqrt D
+  alignas(64) PerItem b_error, root_error;  // of 1/t: b_error + root_error / sqrt D; -inf: not to be met
+  alignas(64) PerItem clear;                // D above which 1/t is known; infinite where it is not known
 };
 
-inline SphereSetup set_up_sphere(const RayPacket& p, const double* row, std::uint32_t count) {
-  SphereSetup s;
-  const auto vec = [](const glm::dvec3& v) { return Vec3<double>{v.x, v.y, v.z}; };
-  const double radius = row[3 * count], per_r = 1 / radius, unit = per_r / p.length;
-  const Vec3<double> f{p.origin.x - row[0], p.origin.y - row[count], p.origin.z - row[2 * count]};
-  const Vec3<double> x = unit * cross(vec(p.U), f), y = unit * cross(vec(p.V), f),
-                     c = unit * cross(vec(p.W), f);
-  const double extent_u = static_cast<double>(p.extent_u), extent_v = static_cast<double>(p.extent_v);
-  const double size = l1(f), l = size + radius + p.distance, near = 2 * p.near_error * p.reach;
-  const double off = 0x1p-22 * ((l1(x) * extent_u + l1(y) * extent_v) + l1(c)) + 0x1p-49 * size * per_r +
-                     p.place_error * (l1(x) + l1(y)) + near * per_r;
-  const double doubt =
-      (2 + off) * off + 0x1p-21 * ((1 + off) * (1 + off)) + 0x1p-46 * ((l * per_r) * (l * per_r));
-  const auto row_of = [](const Vec3<double>& v) {
-    return std::array{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  };
-  s.gx = row_of(x);
-  s.gy = row_of(y);
-  s.gc = row_of(c);
-  s.doubt = static_cast<float>(doubt);
-
-  const double q = dot(f, f) - radius * radius, size_q = lane_abs(q);
-  s.sure = size_q > 0x1p-18 * (l * l) && size_q > 0x1p24 * (near * l);
-  const double per_q = s.sure ? 1 / q : 0;
-  const auto along = [&](const glm::dvec3& d) { return -per_q * dot(f, vec(d)); };
-  const double bx = along(p.U), by = along(p.V), bc = along(p.W), root = radius * p.length * lane_abs(per_q);
-  s.bx = static_cast<float>(bx);
-  s.by = static_cast<float>(by);
-  s.bc = static_cast<float>(bc);
-  s.root = static_cast<float>(root);
-  s.b_error = static_cast<float>(
-      0x1p-21 * ((lane_abs(bx) * extent_u + lane_abs(by) * extent_v) + lane_abs(bc) + root) +
-      p.place_error * (lane_abs(bx) + lane_abs(by)) + 0x1p-46 * (l * p.length) * lane_abs(per_q));
-  s.root_error = static_cast<float>(root * doubt);
-  return s;
-}
-
-// Groups in which some ray may meet the sphere before what it keeps, as bits.
-template <class F>
-std::uint32_t groups_met(const RayPacket& p, const SphereSetup& s) {
-  std::uint32_t bits = 0;
-  for (std::size_t at = 0; at < static_cast<std::size_t>(p.groups); at += kLanes<F>) {
-    const auto middle = [&](const auto& of) { return F(0.5f) * (load<F>(&of[1][at]) + load<F>(&of[0][at])); };
-    const auto half = [&](const auto& of) {
-      return F(0.5f + 0x1p-20f) * (load<F>(&of[1][at]) - load<F>(&of[0][at]));
-    };
-    const F u = middle(p.group_u), v = middle(p.group_v), half_u = half(p.group_u), half_v = half(p.group_v);
-    const auto at_middle = [&](float x, float y, float c) {
-      return mul_add(F(x), u, mul_add(F(y), v, F(c)));
-    };
-    const auto change = [&](float x, float y) {
-      return mul_add(lane_abs<F>(F(x)), half_u, F(lane_abs<F>(F(y)) * half_v));
-    };
-    F least(0);  // of |g|²
-    for (std::size_t k = 0; k < 3; ++k) {
-      const F g =
-          lane_max<F>(lane_abs<F>(at_middle(s.gx[k], s.gy[k], s.gc[k])) - change(s.gx[k], s.gy[k]), F(0));
-      least = mul_add(g, g, least);
-    }
-    const F w = (at_middle(s.bx, s.by, s.bc) + change(s.bx, s.by)) + F(s.root + s.b_error);
-    Mask<F> met = !(least > F(1 + 2 * s.doubt));
-    if (s.sure) met = met && w * F(kSurely) >= lane_max<F>(load<F>(&p.least_w[at]), F(0));
-    bits |= mask_bits<F>(met) << at;
+// Spheres from `lane` on, of the `count` of a leaf.
+template <class D>
+void set_up_spheres(const RayPacket& p, const double* leaf, std::uint32_t count, std::size_t lane,
+                    SphereSetup& s) {
+  const auto row = [&](std::size_t k) { return load<D>(leaf + lane + k * count); };
+  const auto put = [&](const D& x, PerItem& to) { store(to_float<D>(x), &to[lane]); };
+  const Mask<D> asked = lane_numbers<D>() < D(static_cast<double>(count) - static_cast<double>(lane));
+  const D radius = select<D>(asked, row(3), D(1)), per_r = D(1) / radius, unit = per_r * D(1 / p.length);
+  const Vec3<D> f = wide_of<D>(p.origin) - Vec3<D>{row(0), row(1), row(2)};
+  const Vec3<D> U = wide_of<D>(p.U), V = wide_of<D>(p.V), W = wide_of<D>(p.W);
+  const Vec3<D> x = unit * cross(U, f), y = unit * cross(V, f), c = unit * cross(W, f);
+  const D extent_u(static_cast<double>(p.extent_u)), extent_v(static_cast<double>(p.extent_v));
+  const D size = l1(f), l = (size + radius) + D(p.distance), near(2 * p.near_error * p.reach);
+  const D off = D(0x1p-22) * ((l1(x) * extent_u + l1(y) * extent_v) + l1(c)) +
+                (D(0x1p-49) * size + near) * per_r + D(p.place_error) * (l1(x) + l1(y));
+  const D in_radii = l * per_r;
+  const D doubt =
+      ((D(2) + off) * off + D(0x1p-21) * ((D(1) + off) * (D(1) + off))) + D(0x1p-46) * (in_radii * in_radii);
+  for (std::size_t k = 0; k < 3; ++k) {
+    constexpr std::array kPart{&Vec3<D>::x, &Vec3<D>::y, &Vec3<D>::z};
+    put(x.*kPart[k], s.gx[k]);
+    put(y.*kPart[k], s.gy[k]);
+    put(c.*kPart[k], s.gc[k]);
   }
-  return bits & ((1u << p.groups) - 1);
+  put(doubt, s.doubt);
+
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const D q = dot(f, f) - radius * radius, size_q = lane_abs<D>(q);
+  const Mask<D> sure = size_q > D(0x1p-18) * (l * l) && size_q > (D(0x1p24) * near) * l;
+  const D per_q = select<D>(sure, D(1) / select<D>(sure, q, D(1)), D(0)), size_per_q = lane_abs<D>(per_q);
+  const auto along = [&](const Vec3<D>& d) { return -per_q * dot(f, d); };
+  const D bx = along(U), by = along(V), bc = along(W), root = (radius * D(p.length)) * size_per_q;
+  const D size_x = lane_abs<D>(bx), size_y = lane_abs<D>(by);
+  const D b_error = D(0x1p-21) * (((size_x * extent_u + size_y * extent_v) + lane_abs<D>(bc)) + root) +
+                    D(p.place_error) * (size_x + size_y) + (D(0x1p-46) * (l * D(p.length))) * size_per_q;
+  put(bx, s.bx);
+  put(by, s.by);
+  put(bc, s.bc);
+  put(root, s.root);
+  put(select<D>(asked, select<D>(sure, b_error, D(kInfinity)), D(-kInfinity)), s.b_error);
+  put(root * doubt, s.root_error);
+  put(select<D>(sure, D(2) * doubt, D(kInfinity)), s.clear);
+}
+
+// Adds the spheres that some ray of group g may meet before what it keeps. Returns how many.
+template <class B>
+std::size_t add_spheres_met(const RayPacket& p, const SphereSetup& s, std::size_t g, std::int32_t* pairs) {
+  const auto middle = [&](const auto& of) { return B(0.5f * (of[1][g] + of[0][g])); };
+  const auto half = [&](const auto& of) { return B((0.5f + 0x1p-20f) * (of[1][g] - of[0][g])); };
+  const B u = middle(p.group_u), v = middle(p.group_v), half_u = half(p.group_u), half_v = half(p.group_v);
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < Bvh::kMaxLeaf; i += kLanes<B>) {
+    const auto at = [&](const PerItem& row) { return load<B>(&row[i]); };
+    const auto at_middle = [&](const B& x, const B& y, const B& c) {
+      return mul_add(x, u, mul_add(y, v, c));
+    };
+    const auto change = [&](const B& x, const B& y) {
+      return mul_add(lane_abs<B>(x), half_u, B(lane_abs<B>(y) * half_v));
+    };
+    B least(0);  // of |g|²
+    for (std::size_t k = 0; k < 3; ++k) {
+      const B x = at(s.gx[k]), y = at(s.gy[k]);
+      const B from = lane_max<B>(lane_abs<B>(at_middle(x, y, at(s.gc[k]))) - change(x, y), B(0));
+      least = mul_add(from, from, least);
+    }
+    const B bx = at(s.bx), by = at(s.by);
+    const B w = (at_middle(bx, by, at(s.bc)) + change(bx, by)) + (at(s.root) + at(s.b_error));
+    const Mask<B> met =
+        !(least > mul_add(B(2), at(s.doubt), B(1))) && w * B(kSurely) >= B(lane_max(p.least_w[g], 0.0f));
+    size += add_pairs<B>(met, i, g, pairs + size);
+  }
+  return size;
 }
 
 template <class F>
-bool test_spheres(RayPacket& p, const SphereSetup& s, std::size_t ray, std::uint32_t primitive,
-                  SignCounts& counts) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+bool test_sphere(RayPacket& p, const SphereSetup& s, std::size_t i, std::size_t ray, std::uint32_t primitive,
+                 SignCounts& counts) {
   const F u = load<F>(&p.u[ray]), v = load<F>(&p.v[ray]);
   const auto at = [&](float x, float y, float c) { return mul_add(F(x), u, mul_add(F(y), v, F(c))); };
   F square(0);
   for (std::size_t k = 0; k < 3; ++k) {
-    const F g = at(s.gx[k], s.gy[k], s.gc[k]);
+    const F g = at(s.gx[k][i], s.gy[k][i], s.gc[k][i]);
     square = mul_add(g, g, square);
   }
   const F discriminant = load<F>(&p.square[ray]) - square;
-  const Mask<F> may = !(discriminant < F(-s.doubt));
+  const Mask<F> may = !(discriminant < F(-s.doubt[i]));
   if (!any<F>(may)) return false;
   // An unclear one has no depth, so it is asked wherever it is.
-  const Mask<F> met = s.sure ? discriminant > F(2 * s.doubt) : Mask<F>(false);
+  const Mask<F> met = discriminant > F(s.clear[i]);
   const F root = square_root(select<F>(met, discriminant, F(1)));
-  const F w = mul_add(F(s.root), root, at(s.bx, s.by, s.bc));
+  const F w = mul_add(F(s.root[i]), root, at(s.bx[i], s.by[i], s.bc[i]));
+  const F error = F(s.b_error[i]) + F(s.root_error[i]) / root;
   return keep_nearer<F>(p, ray, primitive, met, may, select<F>(met, w, F(0)),
-                        select<F>(met, F(s.b_error) + F(s.root_error) / root, F(kInfinity)), counts);
+                        select<F>(met, error, F(std::numeric_limits<float>::infinity())), counts);
 }
 
-template <class F, class D>
+template <class F, class B, class D>
 void test_leaf(const Prepared& prepared, const PacketAxes&, const SphereLeaves& leaves, std::uint32_t first,
-               std::uint32_t count, RayPacket& p, SignCounts& counts) {
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t primitive = leaves.bvh.items[first + i];
-    if (casts_none<F>(prepared, p, primitive)) continue;
-    const SphereSetup setup = set_up_sphere(p, leaves.leaf(first) + i, count);
-    const std::uint32_t groups = groups_met<F>(p, setup);
-    std::uint32_t changed = 0;
-    for (std::uint32_t bits = groups; bits != 0; bits &= bits - 1) {
-      const std::size_t group = static_cast<std::size_t>(std::countr_zero(bits)) * RayPacket::kGroup;
-      bool any_changed = false;
-      for (std::size_t ray = group; ray < group + RayPacket::kGroup; ray += kLanes<F>)
-        any_changed |= test_spheres<F>(p, setup, ray, primitive, counts);
-      if (any_changed) changed |= bits & (~bits + 1);
-    }
-    counts.tests += RayPacket::kGroup * static_cast<std::uint64_t>(std::popcount(groups));
-    if (changed != 0) update_least<F>(p, changed);
+               std::uint32_t count, std::uint32_t groups, RayPacket& p, SignCounts& counts) {
+  constexpr std::size_t kGroup = RayPacket::kGroup;
+  const std::uint32_t* primitives = &leaves.bvh.items[first];
+  SphereSetup setup;
+  setup.b_error.fill(-std::numeric_limits<float>::infinity());
+  for (std::size_t lane = 0; lane < count; lane += kLanes<D>)
+    set_up_spheres<D>(p, leaves.leaf(first), count, lane, setup);
+  hide_what_casts_none(prepared, p, primitives, count, setup.b_error,
+                       -std::numeric_limits<float>::infinity());
+  Pairs near;
+  std::size_t size = 0;
+  for (; groups != 0; groups &= groups - 1)
+    size += add_spheres_met<B>(p, setup, static_cast<std::size_t>(std::countr_zero(groups)), &near[size]);
+  std::uint32_t changed = 0;
+  for (std::size_t k = 0; k < size; ++k) {
+    const auto [i, group] = item_and_ray(near[k]);
+    bool any_changed = false;
+    for (std::size_t ray = group; ray < group + kGroup; ray += kLanes<F>)
+      any_changed |= test_sphere<F>(p, setup, i, ray, primitives[i], counts);
+    if (any_changed) changed |= 1u << group / kGroup;
   }
+  counts.tests += kGroup * size;
+  if (changed != 0) update_least<F>(p, changed);
 }
 
 }  // namespace sidelight::raytrace

@@ -13,55 +13,63 @@ struct PacketPlane {
   std::array<float, 3> n;
   float offset = 0;  // n . (o - center), by the slack on the safe side
 };
-struct PacketPlanes {
-  std::array<PacketPlane, 4> side;  // >= 0 inside
-  PacketPlane last, first;          // n . (x - o) is the depth of x, the same for all rays
+
+// What boxes are asked: their least and greatest q = (s u, s v, s) (packet_setup.h), and which groups of rays lie there.
+struct PacketBounds {
+  std::array<PacketPlane, 3> least, greatest;
+  // A little wider than the rays, for the rounding of u and v and of what they are compared to: of all, and of each group.
+  float extent_u, extent_v;
+  alignas(64) RayPacket::PerGroup<float> low_u, high_u, low_v, high_v;
 };
 
 // Bound: the float sum of three products, 2^-22 |n| reach, and the pad for all rounding and nearness: 2^-20 with room.
-template <class B>
-PacketPlane packet_plane(const RayPacket& p, const Bvh& bvh, const Vec3<double>& normal, double scale,
-                         bool farthest) {
+inline PacketPlane packet_plane(const RayPacket& p, const Bvh& bvh, const Vec3<double>& normal,
+                                bool farthest) {
   PacketPlane out;
-  const std::array<double, 3> n{scale * normal.x, scale * normal.y, scale * normal.z};
-  double offset = 0, size = 0;
+  const std::array<double, 3> n{normal.x, normal.y, normal.z};
+  double offset = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<int>(i);
     out.n[i] = static_cast<float>(n[i]);
     out.face[i] = (n[i] >= 0) == farthest ? i + 3 : i;
     offset += n[i] * (p.origin[axis] - bvh.center[axis]);
-    size += lane_abs(n[i]);
   }
-  const double slack = 0x1p-19 * size * p.reach;
+  const double slack = 0x1p-19 * l1(normal) * p.reach;
   out.offset = static_cast<float>(farthest ? offset - slack : offset + slack);
   return out;
 }
 
-// Planes through the origin along the packet's four sides: with D = W . (U x V), d . ((W + u1 U) x V) = D (u1 - u).
-template <class B>
-PacketPlanes packet_planes(const RayPacket& p, const Bvh& bvh) {
-  const auto vec = [](const glm::dvec3& v) { return Vec3<double>{v.x, v.y, v.z}; };
-  const Vec3<double> W = vec(p.W), U = vec(p.U), V = vec(p.V), depth = cross(U, V);
-  const double D = dot(W, depth), turn = D < 0 ? -1.0 : 1.0;
-  // A little wider than the rays, for the rounding of u and v.
-  const double u1 = (1 + 0x1p-20) * static_cast<double>(p.extent_u) + p.place_error;
-  const double v1 = (1 + 0x1p-20) * static_cast<double>(p.extent_v) + p.place_error;
-  const auto side = [&](const Vec3<double>& a, const Vec3<double>& b) {
-    const Vec3<double> n = cross(a, b);
-    return packet_plane<B>(p, bvh, n, turn / l1(n), true);
+inline PacketBounds packet_bounds(const RayPacket& p, const PacketAxes& axes, const Bvh& bvh) {
+  PacketBounds out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.least[k] = packet_plane(p, bvh, axes.row[k], false);
+    out.greatest[k] = packet_plane(p, bvh, axes.row[k], true);
+  }
+  const auto wider = [&](float extent) {
+    return 0x1p-20f * extent + static_cast<float>((1 + 0x1p-20) * p.place_error);
   };
-  PacketPlanes out;
-  out.side = {side(W + u1 * U, V), side(V, W - u1 * U), side(U, W + v1 * V), side(W - v1 * V, U)};
-  out.last = packet_plane<B>(p, bvh, depth, 1 / D, true);
-  out.first = packet_plane<B>(p, bvh, depth, 1 / D, false);
+  const float more_u = wider(p.extent_u), more_v = wider(p.extent_v);
+  out.extent_u = p.extent_u + more_u;
+  out.extent_v = p.extent_v + more_v;
+  for (std::size_t g = 0; g < p.least_w.size(); ++g) {
+    out.low_u[g] = p.group_u[0][g] - more_u;
+    out.high_u[g] = p.group_u[1][g] + more_u;
+    out.low_v[g] = p.group_v[0][g] - more_v;
+    out.high_v[g] = p.group_v[1][g] + more_v;
+  }
   return out;
 }
 
-// The children that the packet may meet, as bits, and the depth from which on.
+// Of eight boxes: those that the packet may meet, as bits, the depth from which on each lies, and what it is within.
+struct BoxesSeen {
+  using Row = std::array<float, BvhNode::kWidth>;
+  alignas(64) Row depth, low_u, high_u, low_v, high_v;
+  std::uint32_t met = 0;
+};
+
 template <class B>
-std::uint32_t meet_boxes(const BvhNode& node, const PacketPlanes& planes,
-                         std::array<float, BvhNode::kWidth>& depth) {
-  std::uint32_t bits = 0;
+BoxesSeen see_boxes(const BvhNode& node, const PacketBounds& bounds) {
+  BoxesSeen seen;
   for (std::size_t lane = 0; lane < BvhNode::kWidth; lane += kLanes<B>) {
     const auto at = [&](const PacketPlane& plane) {
       const auto part = [&](std::size_t i) {
@@ -69,11 +77,46 @@ std::uint32_t meet_boxes(const BvhNode& node, const PacketPlanes& planes,
       };
       return ((part(0) + part(1)) + part(2)) - B(plane.offset);
     };
-    Mask<B> met = at(planes.last) >= B(0);
-    for (const PacketPlane& plane : planes.side) met = met && at(plane) >= B(0);
-    store(lane_max<B>(at(planes.first), B(0)), &depth[lane]);
-    bits |= mask_bits<B>(met) << lane;
+    const B first = at(bounds.least[2]), last = at(bounds.greatest[2]);
+    Mask<B> met = last >= B(0);
+    store(lane_max<B>(first, B(0)), &seen.depth[lane]);
+    // Of a box that holds places beside the origin nothing is known.
+    const Mask<B> clear = first >= B(1 / kFar);
+    const B per_first = B(1) / select<B>(clear, first, B(1)), per_last = B(1) / select<B>(clear, last, B(1));
+    const auto within = [&](std::size_t k, float extent, BoxesSeen::Row& low_row, BoxesSeen::Row& high_row) {
+      const B least = at(bounds.least[k]), greatest = at(bounds.greatest[k]);
+      const B low = select<B>(clear, lane_min<B>(least * per_first, least * per_last), B(-kFar)),
+              high = select<B>(clear, lane_max<B>(greatest * per_first, greatest * per_last), B(kFar));
+      met = met && low <= B(extent) && high >= B(-extent);
+      store(low, &low_row[lane]);
+      store(high, &high_row[lane]);
+    };
+    within(0, bounds.extent_u, seen.low_u, seen.high_u);
+    within(1, bounds.extent_v, seen.low_v, seen.high_v);
+    seen.met |= mask_bits<B>(met) << lane;
   }
+  return seen;
+}
+
+// The groups that box i may hold rays of, as bits.
+template <class F>
+std::uint32_t groups_within(const PacketBounds& bounds, const BoxesSeen& seen, std::size_t i) {
+  std::uint32_t bits = 0;
+  for (std::size_t g = 0; g < RayPacket::kGroups; g += kLanes<F>) {
+    const Mask<F> met =
+        F(seen.low_u[i]) <= load<F>(&bounds.high_u[g]) && F(seen.high_u[i]) >= load<F>(&bounds.low_u[g]) &&
+        F(seen.low_v[i]) <= load<F>(&bounds.high_v[g]) && F(seen.high_v[i]) >= load<F>(&bounds.low_v[g]);
+    bits |= mask_bits<F>(met) << g;
+  }
+  return bits;
+}
+
+// Those that have rays which are not done and do not surely keep something nearer than this.
+template <class F>
+std::uint32_t groups_beyond(const RayPacket& p, float depth) {
+  std::uint32_t bits = 0;
+  for (std::size_t g = 0; g < static_cast<std::size_t>(p.groups); g += kLanes<F>)
+    bits |= mask_bits<F>(F(depth) * load<F>(&p.least_w[g]) <= F(1 + 0x1p-12f)) << g;
   return bits;
 }
 
@@ -87,46 +130,82 @@ void prefetch(const Tree& leaves, std::uint32_t first, std::uint32_t count) {
   for (std::size_t at = 0; at < size; at += kLine) __builtin_prefetch(from + at);
 }
 
-// A leaf in steps of RayPacket::budget, a node being one.
+// A leaf in steps of RayPacket::budget.
 template <class Tree>
-constexpr int kLeafWork = std::is_same_v<Tree, SphereLeaves> ? 16 : 4;
+constexpr std::int32_t kLeafWork = std::is_same_v<Tree, SphereLeaves> ? 4 : 1;
 
+// Takes a leaf off the budgets of these groups. Returns those that can afford it; the others are done.
+template <class F>
+std::uint32_t spend(RayPacket& p, std::uint32_t groups, std::int32_t work) {
+  using I = Ints<F>;
+  std::uint32_t over = 0;
+  for (std::size_t g = 0; g < RayPacket::kGroups; g += kLanes<F>) {
+    const I lanes = generate<I>([](int lane) { return lane; }) + I(static_cast<std::int32_t>(g));
+    const I bit = (I(static_cast<std::int32_t>(groups)) >> lanes) & I(1);
+    const I budget = load<I>(&p.budget[g]) - bit * I(work);
+    store(budget, &p.budget[g]);
+    over |= mask_bits<I>(budget < I(0)) << g;
+  }
+  for (std::uint32_t bits = over; bits != 0; bits &= bits - 1)
+    p.least_w[static_cast<std::size_t>(std::countr_zero(bits))] = std::numeric_limits<float>::infinity();
+  return groups & ~over;
+}
+
+// What is still to be visited: nodes and leaves, and the groups that may meet something there.
+struct PacketEntry {
+  float depth;
+  std::uint32_t first;
+  std::uint16_t count, groups;
+};
+struct PacketStack {
+  std::array<PacketEntry, Bvh::kMaxDepth*(BvhNode::kWidth - 1) + 1> entry;
+  std::size_t size = 0;
+};
+
+// Adds what these groups may meet of a node's children, the nearest last.
+template <class F, class B, class Tree>
+void push_children(const Tree& leaves, const BvhNode& node, const PacketBounds& bounds, std::uint32_t groups,
+                   PacketStack& stack) {
+  const BoxesSeen seen = see_boxes<B>(node, bounds);
+  const std::size_t base = stack.size;
+  for (std::uint32_t bits = seen.met; bits != 0; bits &= bits - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+    const std::uint32_t within = groups & groups_within<F>(bounds, seen, i);
+    if (within == 0) continue;
+    const PacketEntry child{seen.depth[i], node.first[i], static_cast<std::uint16_t>(node.count[i]),
+                            static_cast<std::uint16_t>(within)};
+    if (child.count == 0) prefetch(leaves, child.first, 0);
+    std::size_t at = stack.size++;
+    for (; at > base && stack.entry[at - 1].depth <= child.depth; --at) stack.entry[at] = stack.entry[at - 1];
+    stack.entry[at] = child;
+  }
+}
+
+// Near things first. A leaf waits until some more have been found, while its numbers are on their way.
 template <class F, class B, class D, class Tree>
 void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& leaves, RayPacket& p,
                  SignCounts& counts) {
-  const Bvh& bvh = leaves.bvh;
-  if (bvh.nodes.empty() || p.groups == 0) return;
-  const PacketPlanes planes = packet_planes<B>(p, bvh);
-  struct Entry {
-    float depth;
-    std::uint32_t first, count;
-  };
-  std::array<Entry, Bvh::kMaxDepth*(BvhNode::kWidth - 1) + 1> stack;
-  std::size_t size = 0;
-  stack[size++] = {0, 0, 0};
-  while (size > 0) {
-    const Entry top = stack[--size];
-    // Surely behind all that is kept; all rays of an infinite w are done.
-    if (p.least == std::numeric_limits<float>::infinity()) return;
-    if (top.depth * p.least > 1 + 0x1p-12f) continue;
-    p.budget -= top.count > 0 ? kLeafWork<Tree> : 1;
-    if (p.budget < 0) return;
-    if (top.count > 0) {
-      test_leaf<F, D>(prepared, axes, leaves, top.first, top.count, p, counts);
-      continue;
-    }
-    ++counts.nodes;
-    const BvhNode& node = bvh.nodes[top.first];
-    alignas(64) std::array<float, BvhNode::kWidth> depth;
-    const std::uint32_t met = meet_boxes<B>(node, planes, depth);
-    const std::size_t base = size;
-    for (std::uint32_t bits = met; bits != 0; bits &= bits - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-      const Entry child{depth[i], node.first[i], node.count[i]};
-      prefetch(leaves, child.first, child.count);
-      std::size_t at = size++;
-      for (; at > base && stack[at - 1].depth <= child.depth; --at) stack[at] = stack[at - 1];
-      stack[at] = child;
+  constexpr std::size_t kAhead = 8;
+  if (leaves.bvh.nodes.empty() || p.groups == 0) return;
+  const PacketBounds bounds = packet_bounds(p, axes, leaves.bvh);
+  PacketStack stack;
+  stack.entry[stack.size++] = {0, 0, 0, static_cast<std::uint16_t>((1u << p.groups) - 1)};
+  std::array<PacketEntry, kAhead> waiting;
+  std::size_t arrived = 0, done = 0;
+  while (stack.size > 0 || done < arrived) {
+    const bool is_leaf = stack.size == 0 || arrived - done == kAhead;
+    const PacketEntry top = is_leaf ? waiting[done++ % kAhead] : stack.entry[--stack.size];
+    std::uint32_t groups = top.groups & groups_beyond<F>(p, top.depth);
+    if (groups == 0) continue;
+    if (is_leaf) {
+      groups = spend<F>(p, groups, kLeafWork<Tree>);
+      if (groups != 0) test_leaf<F, B, D>(prepared, axes, leaves, top.first, top.count, groups, p, counts);
+    } else if (top.count > 0) {
+      prefetch(leaves, top.first, top.count);
+      waiting[arrived++ % kAhead] = top;
+    } else {
+      ++counts.nodes;
+      push_children<F, B>(leaves, leaves.bvh.nodes[top.first], bounds, groups, stack);
     }
   }
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "raytrace/packets.h"
 
-#include <algorithm>
-
 namespace sidelight::raytrace {
 
 void start(RayPacket& p) {
@@ -19,7 +17,6 @@ void start(RayPacket& p) {
     p.group_u[0][g] = p.group_v[0][g] = std::numeric_limits<float>::infinity();
     p.group_u[1][g] = p.group_v[1][g] = -std::numeric_limits<float>::infinity();
   }
-  p.least = *std::min_element(p.least_w.begin(), p.least_w.begin() + p.groups);
   p.primitive.fill(-1);
   p.asked.fill(false);
 }

@@ -38,8 +38,8 @@ struct RayPacket {
   alignas(64) PerRay<std::int32_t> own;  // of shadow rays: the flat surface that asks, or -1
   bool any_hit = false;                  // shadow rays: the first one will do
   bool all_cast = true;                  // whether every material casts shadows
-  // Work left, in nodes (packet_walk.h): where it falls below 0 the packet is left as it is by then.
-  int budget = std::numeric_limits<int>::max();
+  // Work left of each group (packet_walk.h): where it falls below 0 its rays are left as they are by then.
+  alignas(64) PerGroup<std::int32_t> budget;
   // Whether anything at all was doubtful. If not, nothing but what is kept comes near to where the ray ends.
   PerRay<bool> asked{};
 
@@ -50,7 +50,6 @@ struct RayPacket {
 
   // Derived.
   int groups = 0;
-  float least = 0;                   // w of all rays
   alignas(64) PerRay<float> square;  // where there are spheres: (d / length)²
 
   // Decides about a ray and a primitive, and changes w and primitive accordingly.

@@ -13,9 +13,9 @@ namespace {
 // Places are sorted where groups as they come have more than this times the area of all.
 constexpr double kApart = 1.5;
 
-// What a packet may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget,
+// What a group may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget,
 // that is about as much as they would do alone.
-constexpr int kPacketWork = 128, kRayWork = 4;
+constexpr int kGroupWork = 64;
 
 // Points nearer to the light than this have no direction from it that a double could hold.
 constexpr double kLeastDepth = 1e-100;
@@ -37,10 +37,38 @@ int face_of(const glm::dvec3& p) {
   return 2 * axis + (p[axis] < 0 ? 1 : 0);
 }
 
+// The smaller (greater) of two; as std::min() has it, but something that is done to many at once.
+struct Less {
+  template <class T>
+  T operator()(T a, T b) const {
+    return b < a ? b : a;
+  }
+};
+struct More {
+  template <class T>
+  T operator()(T a, T b) const {
+    return a < b ? b : a;
+  }
+};
+
+// The least (greatest) of sixteen, by halves.
+template <class Pick, class T>
+T of_group(const T* x, const Pick& pick) {
+  static_assert(RayPacket::kGroup == 16);
+  std::array<T, 8> left;
+  for (std::size_t i = 0; i < 8; ++i) left[i] = pick(x[i], x[i + 8]);
+  for (std::size_t i = 0; i < 4; ++i) left[i] = pick(left[i], left[i + 4]);
+  return pick(pick(left[0], left[2]), pick(left[1], left[3]));
+}
+
 }  // namespace
 
-void ShadowPackets::Extent::grow(const Place& place) {
-  grow(Extent{place.u, place.u, place.v, place.v, place.per_depth});
+void ShadowPackets::Places::resize(std::size_t size) {
+  u.resize(size);
+  v.resize(size);
+  per_depth.resize(size);
+  number.resize(size);
+  own.resize(size);
 }
 
 void ShadowPackets::Extent::grow(const Extent& other) {
@@ -104,12 +132,29 @@ bool ShadowPackets::find_places_along(int face, bool all) {
     const glm::dvec3 p = asked.from - light_->position;
     const double depth = sign * p[kAxis], per_depth = 1 / depth;
     const double u = per_depth * p[(kAxis + 1) % 3], v = per_depth * p[(kAxis + 2) % 3];
-    places_[size] = {u, v, per_depth, static_cast<std::uint32_t>(i), asked.own};
+    places_.u[size] = u;
+    places_.v[size] = v;
+    places_.per_depth[size] = static_cast<float>(per_depth);
+    places_.number[size] = static_cast<std::uint32_t>(i);
+    places_.own[size] = static_cast<std::int32_t>(asked.own);
     fit &= depth >= kLeastDepth && std::abs(u) <= kWide && std::abs(v) <= kWide;
     size += all || (face_of(p) == face && depth >= kLeastDepth);
   }
   places_.resize(size);
   return fit;
+}
+
+// Of up to sixteen places from this one on.
+ShadowPackets::Extent ShadowPackets::group_at(std::size_t first) const {
+  const double *u = &places_.u[first], *v = &places_.v[first];
+  const float* per_depth = &places_.per_depth[first];
+  if (first + RayPacket::kGroup <= places_.size())
+    return {of_group(u, Less()), of_group(u, More()), of_group(v, Less()), of_group(v, More()),
+            of_group(per_depth, Less())};
+  Extent group;
+  for (std::size_t i = 0; first + i < places_.size(); ++i)
+    group.grow(Extent{u[i], u[i], v[i], v[i], per_depth[i]});
+  return group;
 }
 
 // The groups of the places as they stand, and their area.
@@ -119,11 +164,9 @@ double ShadowPackets::find_groups() {
   whole_ = Extent();
   double filled = 0;
   for (std::size_t at = 0; at < places_.size(); at += kGroup) {
-    Extent group;
-    for (std::size_t i = at; i < std::min(at + kGroup, places_.size()); ++i) group.grow(places_[i]);
-    groups_.push_back(group);
-    whole_.grow(group);
-    filled += group.area();
+    groups_.push_back(group_at(at));
+    whole_.grow(groups_.back());
+    filled += groups_.back().area();
   }
   return filled;
 }
@@ -138,70 +181,59 @@ void ShadowPackets::sort_places() {
   std::fill_n(start.begin(), (std::size_t{1} << 2 * bits) + 1, 0u);
   keys_.resize(places_.size());
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    keys_[i] = spread(static_cast<std::uint32_t>(scale * (places_[i].u - whole_.low_u))) |
-               spread(static_cast<std::uint32_t>(scale * (places_[i].v - whole_.low_v))) << 1;
+    keys_[i] = spread(static_cast<std::uint32_t>(scale * (places_.u[i] - whole_.low_u))) |
+               spread(static_cast<std::uint32_t>(scale * (places_.v[i] - whole_.low_v))) << 1;
     ++start[keys_[i] + 1];
   }
   for (std::size_t cell = 1; cell <= std::size_t{1} << 2 * bits; ++cell) start[cell] += start[cell - 1];
   sorted_.resize(places_.size());
-  for (std::size_t i = 0; i < places_.size(); ++i) sorted_[start[keys_[i]]++] = places_[i];
-  places_.swap(sorted_);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const std::size_t to = start[keys_[i]]++;
+    sorted_.u[to] = places_.u[i];
+    sorted_.v[to] = places_.v[i];
+    sorted_.per_depth[to] = places_.per_depth[i];
+    sorted_.number[to] = places_.number[i];
+    sorted_.own[to] = places_.own[i];
+  }
+  std::swap(places_, sorted_);
 }
 
-// Cut where what lies between the groups would be much more than the groups.
+// Packet by packet, as the groups come: those that lie apart go down the tree apart.
 void ShadowPackets::trace_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts) {
   constexpr std::size_t kGroups = RayPacket::kGroups;
-  constexpr double kEmpty = 3;
-  if (places_.empty()) return;
+  if (places_.size() == 0) return;
   if (find_groups() > kApart * whole_.area()) {
     sort_places();
     find_groups();
   }
   const int axis = face / 2;
-  packet_.W = packet_.U = packet_.V = glm::dvec3(0);
-  packet_.W[axis] = face % 2 == 0 ? 1 : -1;
+  glm::dvec3 middle(0);
+  middle[axis] = face % 2 == 0 ? 1 : -1;
+  packet_.U = packet_.V = glm::dvec3(0);
   packet_.U[(axis + 1) % 3] = 1;
   packet_.V[(axis + 2) % 3] = 1;
-  const glm::dvec3 middle_of_face = packet_.W;
-  const auto trace_from = [&](std::size_t first, std::size_t last, const Extent& extent) {
-    packet_.W = middle_of_face;
-    trace_groups(first, last, extent, dark, counts);
-  };
-  std::size_t first = 0;
-  Extent whole;
-  double filled = 0;
-  for (std::size_t at = 0; at < groups_.size(); ++at) {
-    Extent more = whole;
-    more.grow(groups_[at]);
-    const double area = groups_[at].area();
-    if (at > first && (at - first == kGroups || more.area() > kEmpty * (filled + area))) {
-      trace_from(first, at, whole);
-      first = at;
-      more = groups_[at];
-      filled = 0;
-    }
-    whole = more;
-    filled += area;
+  for (std::size_t first = 0; first < groups_.size(); first += kGroups) {
+    packet_.W = middle;
+    trace_groups(first, std::min(first + kGroups, groups_.size()), dark, counts);
   }
-  trace_from(first, groups_.size(), whole);
 }
 
-void ShadowPackets::trace_groups(std::size_t first, std::size_t last, const Extent& extent,
-                                 std::vector<std::uint8_t>& dark, SignCounts& counts) {
+void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark,
+                                 SignCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
+  Extent extent;
+  for (std::size_t g = first; g < last; ++g) extent.grow(groups_[g]);
   const double middle_u = 0.5 * (extent.low_u + extent.high_u),
                middle_v = 0.5 * (extent.low_v + extent.high_v);
-  const std::span places(&places_[first * kGroup], std::min(places_.size(), last * kGroup) - first * kGroup);
-  packet_.size = static_cast<int>(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    packet_.u[i] = static_cast<float>(places[i].u - middle_u);
-    packet_.v[i] = static_cast<float>(places[i].v - middle_v);
-    packet_.w[i] = static_cast<float>(places[i].per_depth);
-    packet_.own[i] = static_cast<std::int32_t>(places[i].own);
-    number_[i] = places[i].number;
-  }
+  const std::size_t from = first * kGroup, size = std::min(places_.size(), last * kGroup) - from;
+  packet_.size = static_cast<int>(size);
+  for (std::size_t i = 0; i < size; ++i) packet_.u[i] = static_cast<float>(places_.u[from + i] - middle_u);
+  for (std::size_t i = 0; i < size; ++i) packet_.v[i] = static_cast<float>(places_.v[from + i] - middle_v);
+  std::copy_n(&places_.per_depth[from], size, packet_.w.begin());
+  std::copy_n(&places_.own[from], size, packet_.own.begin());
+  number_ = std::span(&places_.number[from], size);
   packet_.W += middle_u * packet_.U + middle_v * packet_.V;
-  packet_.distance = packet_.length / extent.least_per_depth;
+  packet_.distance = (1 + 0x1p-22) * packet_.length / static_cast<double>(extent.least_per_depth);
   // Places are rounded in double, at most kWide, and in float.
   packet_.place_error =
       0x1p-49 * kWide + 0x1p-23 * std::max(extent.high_u - extent.low_u, extent.high_v - extent.low_v);
@@ -213,14 +245,14 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, const Exte
     packet_.group_u[1][g - first] = static_cast<float>(groups_[g].high_u - middle_u);
     packet_.group_v[0][g - first] = static_cast<float>(groups_[g].low_v - middle_v);
     packet_.group_v[1][g - first] = static_cast<float>(groups_[g].high_v - middle_v);
-    packet_.least_w[g - first] = static_cast<float>(groups_[g].least_per_depth);
+    packet_.least_w[g - first] = groups_[g].least_per_depth;
   }
   start(packet_);
-  packet_.budget = kPacketWork + kRayWork * packet_.size;
+  packet_.budget.fill(kGroupWork);
   trace_packet(isa_, prepared_, packet_, counts);
-  const bool all = packet_.budget >= 0;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    dark[number_[i]] = packet_.primitive[i] >= 0 || (!all && is_dark(number_[i], counts));
+  for (std::size_t i = 0; i < size; ++i)
+    dark[number_[i]] =
+        packet_.primitive[i] >= 0 || (packet_.budget[i / kGroup] < 0 && is_dark(number_[i], counts));
 }
 
 // Alone.

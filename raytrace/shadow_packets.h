@@ -3,7 +3,7 @@
 // origin (packets.h), on a face of a cube around it. Which points are dark is what blocker() says of each, every one.
 //
 // I. Wald, C. Benthin, M. Wagner, P. Slusallek, "Interactive Rendering with Coherent Ray Tracing", 2001, section 4.3
-// (shadow rays traced from the light); here sorted, and cut where they lie too far apart.
+// (shadow rays traced from the light); here sorted where neighbours lie too far apart.
 #pragma once
 
 #include <limits>
@@ -30,17 +30,21 @@ class ShadowPackets {
              std::vector<std::uint8_t>& dark, SignCounts& counts);
 
  private:
-  // A query on a face of the cube: P = light + (axis + u U + v V) / per_depth.
-  struct Place {
-    double u = 0, v = 0, per_depth = 0;
-    std::uint32_t number = 0, own = kNone;  // in asking_; ShadowQuery::own
+  // Queries on a face of the cube, side by side: P = light + (axis + u U + v V) / per_depth.
+  struct Places {
+    std::vector<double> u, v;
+    std::vector<float> per_depth;
+    std::vector<std::uint32_t> number;  // in asking_
+    std::vector<std::int32_t> own;      // ShadowQuery::own, -1 for kNone
+
+    std::size_t size() const { return number.size(); }
+    void resize(std::size_t size);
   };
   // What the rays of a group, or of more, have in common.
   struct Extent {
     double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
-    double least_per_depth = low_u;
+    float least_per_depth = std::numeric_limits<float>::infinity();
 
-    void grow(const Place& place);
     void grow(const Extent& other);
     double area() const { return (high_u - low_u) * (high_v - low_v); }
   };
@@ -48,11 +52,11 @@ class ShadowPackets {
   bool find_places(int face, bool all);
   template <int kAxis>
   bool find_places_along(int face, bool all);
+  Extent group_at(std::size_t first) const;
   double find_groups();
   void trace_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts);
   void sort_places();
-  void trace_groups(std::size_t first, std::size_t last, const Extent& extent,
-                    std::vector<std::uint8_t>& dark, SignCounts& counts);
+  void trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark, SignCounts& counts);
   const ShadowQuery& query(std::size_t number) const { return queries_[asking_[number]]; }
   bool is_dark(std::size_t number, SignCounts& counts) const;
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
@@ -64,11 +68,11 @@ class ShadowPackets {
   std::span<const ShadowQuery> queries_;
   std::span<const std::uint32_t> asking_;
   // Of one face, in the order of the queries and sorted.
-  std::vector<Place> places_, sorted_;
+  Places places_, sorted_;
   std::vector<std::uint32_t> keys_;
   std::vector<Extent> groups_;
-  Extent whole_;                             // of all groups
-  RayPacket::PerRay<std::uint32_t> number_;  // of the packet's rays
+  Extent whole_;                           // of all groups
+  std::span<const std::uint32_t> number_;  // of the packet's rays
 };
 
 }  // namespace sidelight::raytrace

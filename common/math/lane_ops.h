@@ -96,6 +96,14 @@ template <class F>
     return count;
   }
 #endif
+#ifdef __AVX512VL__
+  if constexpr (sizeof(F) == 32) {
+    _mm256_storeu_si256(
+        reinterpret_cast<__m256i*>(to),
+        _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), std::bit_cast<__m256i>(values)));
+    return count;
+  }
+#endif
   alignas(64) std::int32_t lanes[kLanes<F>];
   store(values, lanes);
   for (; bits != 0; bits &= bits - 1) *to++ = lanes[std::countr_zero(bits)];
