@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "common/picture/tile_pixels.h"
-#include "common/scene/primitive_finder.h"
 
 namespace sidelight::raytrace {
 
@@ -192,112 +191,6 @@ Hit Wave::first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& 
                            path.media, stats.signs);
     if (behind.current() != path.media.current()) return hit;
     path.media = behind;
-  }
-}
-
-// ---- Surfaces ----
-
-HitBatch& Wave::next_batch() {
-  if (used_ == batches_.size()) batches_.emplace_back();
-  return batches_[used_++];
-}
-
-void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
-  used_ = 0;
-  for (SurfaceBatch& batch : surfaces_) {
-    batch.own_rays = !eye;
-    batch.want_leaving = shadows_ || secondary_;
-    batch.has_t = !eye || primary_;
-    batch.want_t = eye && !primary_ && (want_t_ || batch.want_leaving);
-  }
-  // Steps of column and row are whole numbers, exact.
-  const double first_column = camera_.column_factor(camera_.n * pixels_.x0);
-  const double first_row = camera_.row_factor(camera_.n * pixels_.y0);
-  PrimitiveFinder find(scene_);
-  for (std::size_t k = 0; k < level.hits.size(); ++k) {
-    const std::size_t i = eye ? order_[k].number : k;
-    const Hit& hit = level.hits[i];
-    if (!hit.found()) continue;
-    SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(find(hit.primitive).kind)];
-    const auto entry = static_cast<std::size_t>(batch.size);
-    batch.t[entry] = hit.t;
-    batch.primitive[entry] = hit.primitive;
-    batch.sample[entry] = static_cast<std::uint32_t>(i);
-    if (eye) {
-      batch.column[entry] = first_column + 2 * order_[k].column;
-      batch.row[entry] = first_row - 2 * order_[k].row;
-    } else {
-      put(batch.origin, entry, level.rays[i].path.ray.origin);
-      put(batch.direction, entry, level.rays[i].path.ray.direction);
-    }
-    ++batch.size;
-    if (batch.room() == 0) flush(level, batch, eye, stats);
-  }
-  for (SurfaceBatch& batch : surfaces_) flush(level, batch, eye, stats);
-}
-
-void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& stats) {
-  if (surfaces.size == 0) return;
-  surfaces_at(isa_, scene_, camera_, prepared_.tables, surfaces, shading_, stats.signs);
-  HitBatch& batch = next_batch();
-  const auto size = static_cast<std::size_t>(surfaces.size);
-  if (surfaces.want_t)
-    for (std::size_t i = 0; i < size; ++i) level.hits[surfaces.sample[i]].t = surfaces.t[i];
-  batch.size = surfaces.size;
-  batch.kind = surfaces.kind;
-  std::copy_n(surfaces.sample.begin(), size, batch.ray.begin());
-  std::copy_n(shading_.material.begin(), size, batch.material.begin());
-  if (eye && want_normal_)
-    for (std::size_t i = 0; i < size; ++i) normal_[batch.ray[i]] = get(shading_.normal, i);
-
-  if (shadows_) {
-    light_terms(isa_, prepared_.tables, shading_, eye && want_parts_, batch.lit);
-  } else {
-    shade(isa_, prepared_.tables, shading_, eye && want_parts_);
-    for (std::size_t i = 0; i < size; ++i) {
-      level.color[batch.ray[i]] = get(shading_.unshadowed, i);
-      if (!eye || !want_parts_) continue;
-      parts_[0][batch.ray[i]] = get(shading_.ambient_layer, i);
-      parts_[1][batch.ray[i]] = get(shading_.diffuse_layer, i);
-      parts_[2][batch.ray[i]] = get(shading_.specular_layer, i);
-    }
-  }
-  if (surfaces.want_leaving) find_leaving_points(level, surfaces, batch, stats);
-  surfaces.size = 0;
-}
-
-// Whether there is nothing to search for near the hit.
-bool Wave::stands_alone(Level& level, std::size_t ray, ObjectKind kind) {
-  if (level.rays.empty())
-    return !level.alone.empty() && level.alone[ray] && level.hits[ray].t < farthest_alone_;
-  if (level.alone[ray] || kind != ObjectKind::mesh) return level.alone[ray];
-  const Hit& hit = level.hits[ray];
-  const bool clear = is_clear(prepared_, level.rays[ray].path.ray, hit, clearings_);
-  // On a solid the ray grazes, or lone_hit() would have said so: no reason to call it lone.
-  level.alone[ray] = clear && !scene_.objects[scene_.primitive_object[hit.primitive]].solid;
-  return clear;
-}
-
-void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
-                               RenderStats& stats) {
-  batch.normal = surfaces.normal;
-  batch.facing = surfaces.facing;
-  batch.clearance = surfaces.clearance;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
-    Place place;
-    place.point = get(surfaces.point, i);
-    place.facing = get(surfaces.facing, i);
-    place.clearance = surfaces.clearance[i];
-    const glm::dvec3 above = place.point + place.clearance * place.facing;  // leaving_point() of nothing near
-    batch.plain[i] = true;
-    put(batch.from, i, above);
-    if (stands_alone(level, batch.ray[i], batch.kind)) continue;
-    const Hit& hit = level.hits[batch.ray[i]];
-    const Ray ray = ray_of(level, batch.ray[i]);
-    place.together = together_depth(ray, hit, place);
-    const glm::dvec3 from = leaving_point(prepared_, ray, hit, place, stats.signs, isa_);
-    batch.plain[i] = from == above;
-    put(batch.from, i, from);
   }
 }
 
