@@ -90,23 +90,27 @@ bool Wave::stands_alone(Level& level, std::size_t ray, ObjectKind kind) {
 
 void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
                                RenderStats& stats) {
-  batch.normal = surfaces.normal;
-  batch.facing = surfaces.facing;
-  batch.clearance = surfaces.clearance;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
+  const auto size = static_cast<std::size_t>(batch.size);
+  for (std::size_t axis = 0; axis < 3; ++axis)  // leaving_point() of nothing near
+    for (std::size_t i = 0; i < size; ++i)
+      batch.from[axis][i] = surfaces.point[axis][i] + surfaces.clearance[i] * surfaces.facing[axis][i];
+  std::fill_n(batch.plain.begin(), size, true);
+  if (secondary_ || batch.kind == ObjectKind::sphere) batch.facing = surfaces.facing;
+  if (secondary_) {
+    batch.normal = surfaces.normal;
+    batch.clearance = surfaces.clearance;
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    if (stands_alone(level, batch.ray[i], batch.kind)) continue;
     Place place;
     place.point = get(surfaces.point, i);
     place.facing = get(surfaces.facing, i);
     place.clearance = surfaces.clearance[i];
-    const glm::dvec3 above = place.point + place.clearance * place.facing;  // leaving_point() of nothing near
-    batch.plain[i] = true;
-    put(batch.from, i, above);
-    if (stands_alone(level, batch.ray[i], batch.kind)) continue;
     const Hit& hit = level.hits[batch.ray[i]];
     const Ray ray = ray_of(level, batch.ray[i]);
     place.together = together_depth(ray, hit, place);
     const glm::dvec3 from = leaving_point(prepared_, ray, hit, place, stats.signs, isa_);
-    batch.plain[i] = from == above;
+    batch.plain[i] = from == get(batch.from, i);
     put(batch.from, i, from);
   }
 }
