@@ -13,9 +13,10 @@ glm::dvec3 interpolated(const Scene& scene, const Triangle& triangle, const Plac
 
 // N before it has unit length, of a triangle. (A flat one's is interpolated too, in lanes: no zero of it is negative.)
 glm::dvec3 smooth_normal(const Scene& scene, const Triangle& triangle, const Place& place) {
-  if (triangle.normal[0] == kNone) return place.facing + glm::dvec3(0);
+  const glm::dvec3 flat = place.facing + glm::dvec3(0);
+  if (triangle.normal[0] == kNone) return flat;
   const double side = glm::dot(interpolated(scene, triangle, place, 1), place.facing);
-  return side == 0 ? place.facing : interpolated(scene, triangle, place, side < 0 ? -1 : 1);
+  return side == 0 ? flat : interpolated(scene, triangle, place, side < 0 ? -1 : 1);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ class TriangleSurfaces {
       return view_.scene.positions[triangle.vertex[k]];
     });
   }
-  // 0 of a flat triangle.
+  // 0 of a flat triangle. (One with three normals of 0 is as good as flat.)
   Vec3<F> vertex_normals(std::size_t r, std::size_t k) const {
     return scene_vectors(r, [&](const Triangle& triangle) -> const glm::dvec3& {
       static constexpr glm::dvec3 kFlat(0);
@@ -125,7 +125,7 @@ class TriangleSurfaces {
   // sure of each: it is off by less than 8 u |normal| |toward|, and so is what surface_at() makes of one between them.
   Mask<F> see_normals(std::size_t r, const Vec3<F>& toward) {
     const Vec3<F> n0 = vertex_normals(r, 0), n1 = vertex_normals(r, 1), n2 = vertex_normals(r, 2);
-    const Mask<F> flat = size(n0) == F(0);
+    const Mask<F> flat = (size(n0) + size(n1)) + size(n2) == F(0);
     const bool any_flat = any<F>(flat);
     const F side = dot(n0, toward), turn = select<F>(side < F(0), F(-1), F(1));
     const F apart = lane_min(lane_min(turn * side, turn * dot(n1, toward)), turn * dot(n2, toward));
