@@ -53,11 +53,13 @@ TEST_CASE("a picture against itself plus c") {
 // roundings of both signs leave far less than that.
 TEST_CASE("a constant that no float holds, over many pixels") {
   const int edge = test::tier() == "sanitized" ? 512 : 4096;
-  const Picture a(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), glm::vec3(0)), b(a.size(), glm::vec3(0.1f));
+  const Picture a(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), glm::vec3(0)),
+      b(a.size(), glm::vec3(0.1f));
   const Metrics metrics = measure(a, b, edge, edge);
   const double c = double{0.1f};
   const HardCase hard("IMG-2");
-  hard.at_most("picture against itself plus c, many pixels: relative error of c", std::abs(metrics.mean / c - 1), 1e-12);
+  hard.at_most("picture against itself plus c, many pixels: relative error of c",
+               std::abs(metrics.mean / c - 1), 1e-12);
   hard.at_most("and of c squared", std::abs(metrics.rms * metrics.rms / (c * c) - 1), 1e-12);
 }
 
@@ -69,8 +71,8 @@ TEST_CASE("black against white") {
   CHECK(metrics.rms == 1);
   REQUIRE(metrics.psnr.has_value());
   CHECK(*metrics.psnr == 0);
-  HardCase("IMG-2").holds("black against white: 1 and 0 dB",
-                          metrics.max.value == 1 && metrics.mean == 1 && metrics.rms == 1 && *metrics.psnr == 0);
+  HardCase("IMG-2").holds("black against white: 1 and 0 dB", metrics.max.value == 1 && metrics.mean == 1 &&
+                                                                 metrics.rms == 1 && *metrics.psnr == 0);
 }
 
 TEST_CASE("one by one pixel, one code apart") {
@@ -97,13 +99,15 @@ TEST_CASE("swapped pictures give the same numbers") {
   CHECK(ab.psnr == ba.psnr);
   CHECK(ab.max.value == ba.max.value);
   HardCase("IMG-2").holds("swapped pictures give the same numbers", ab.mean == ba.mean && ab.rms == ba.rms &&
-                                                                     ab.psnr == ba.psnr && ab.max.value == ba.max.value);
+                                                                        ab.psnr == ba.psnr &&
+                                                                        ab.max.value == ba.max.value);
 
   // So do pixels in another order, but for the order of the sums: all terms are dyadic here, so exactly.
   Picture c(a.rbegin(), a.rend()), d(b.rbegin(), b.rend());
   const Metrics cd = measure(c, d, 5, 4);
   HardCase("IMG-2").holds("permuted pixels give the same numbers", ab.mean == cd.mean && ab.rms == cd.rms &&
-                                                                    ab.psnr == cd.psnr && ab.max.value == cd.max.value);
+                                                                       ab.psnr == cd.psnr &&
+                                                                       ab.max.value == cd.max.value);
 }
 
 TEST_CASE("the greatest difference is named, the first of equals") {
@@ -139,7 +143,8 @@ TEST_CASE("values that are not finite are counted and leave the rest alone") {
 
   const Picture all(4, glm::vec3(nan));
   metrics = measure(all, reference, 2, 2);
-  HardCase("IMG-1").holds("12 values of 12 that are not finite are counted, the rest measured apart", metrics.non_finite == 12);
+  HardCase("IMG-1").holds("12 values of 12 that are not finite are counted, the rest measured apart",
+                          metrics.non_finite == 12);
   CHECK(metrics.mean == 0);
   CHECK_FALSE(metrics.psnr.has_value());
 }

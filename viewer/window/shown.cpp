@@ -111,7 +111,8 @@ class ShownMaker {
   }
 
   bool has(Layer layer) const {
-    return has_layer(*pictures_.traced, layer) && (!both_make(layer) || has_layer(*pictures_.rastered, layer));
+    return has_layer(*pictures_.traced, layer) &&
+           (!both_make(layer) || has_layer(*pictures_.rastered, layer));
   }
   std::vector<ShownPanel> layer(Layer layer) const {
     std::vector<ShownPanel> out;
