@@ -48,6 +48,22 @@ template <class F, class Row>
   return {component(0), component(1), component(2)};
 }
 
+// One entry of a table, the same for all lanes.
+template <class F>
+class OneEntry {
+ public:
+  explicit OneEntry(std::uint32_t entry) : entry_(entry) {}
+
+  F operator()(const double* table) const { return F(table[entry_]); }
+  template <class Table>
+  Vec3<F> vector(const Table& table) const {
+    return {F(table[0][entry_]), F(table[1][entry_]), F(table[2][entry_])};
+  }
+
+ private:
+  std::uint32_t entry_;
+};
+
 // Which entry of a table each lane reads: numbers that ascend from lane to lane by 0 or 1. Reads of a table as many entries
 // beyond the first lane's as there are lanes.
 template <class F>

@@ -32,15 +32,31 @@ void pad(SurfaceBatch& batch) {
   }
 }
 
-// Which entries begin a run. The first numbers of `first` are set.
-void find_runs(SurfaceBatch& batch, std::array<std::uint32_t, SurfaceBatch::kCapacity>& first) {
+// Whether all of a group are of this primitive.
+bool is_one(const SurfaceBatch& batch, std::size_t first, std::uint32_t primitive) {
+  using Numbers = stdx::native_simd<std::uint32_t>;
+  Numbers unlike(0);
+  for (std::size_t i = first; i < first + kGroup; i += Numbers::size())
+    unlike |= load<Numbers>(&batch.primitive[i]) ^ Numbers(primitive);
+  return stdx::all_of(unlike == 0);
+}
+
+// Of each run, some entry.
+void find_runs(SurfaceBatch& batch, std::array<std::uint32_t, SurfaceBatch::kCapacity>& entry) {
   const std::size_t size = whole_groups(batch.size);
-  std::uint32_t run = 0;
-  first[0] = batch.run[0] = 0;
-  for (std::size_t i = 1; i < size; ++i) {
-    run += batch.own_rays || batch.primitive[i] != batch.primitive[i - 1];
-    batch.run[i] = run;
-    first[run] = static_cast<std::uint32_t>(i);
+  std::uint32_t run = 0, last = batch.primitive[0];
+  entry[0] = 0;
+  for (std::size_t group = 0; group < size; group += kGroup) {
+    if (!batch.own_rays && is_one(batch, group, last)) {
+      std::fill_n(&batch.run[group], kGroup, run);
+      continue;
+    }
+    for (std::size_t i = group; i < group + kGroup; ++i) {
+      run += i > 0 && (batch.own_rays || batch.primitive[i] != last);
+      last = batch.primitive[i];
+      batch.run[i] = run;
+      entry[run] = static_cast<std::uint32_t>(i);
+    }
   }
   batch.runs = static_cast<int>(run) + 1;
 }
@@ -53,13 +69,13 @@ std::uint32_t material_of(const Scene& scene, ObjectKind kind, std::uint32_t ind
 
 // What the kernel has to know of the primitives, and what shading has to.
 void fetch(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch, ShadingBatch& out) {
-  std::array<std::uint32_t, SurfaceBatch::kCapacity> first;
-  find_runs(batch, first);
+  std::array<std::uint32_t, SurfaceBatch::kCapacity> entry;
+  find_runs(batch, entry);
   batch.shiny = false;
   PrimitiveFinder find(scene);
   const auto runs = static_cast<std::size_t>(batch.runs);
   for (std::size_t r = 0; r < runs; ++r) {
-    batch.index[r] = find(batch.primitive[first[r]]).index;
+    batch.index[r] = find(batch.primitive[entry[r]]).index;
     if (!batch.prefetched) prefetch_surface(scene, {batch.kind, batch.index[r]});
   }
   std::array<std::uint32_t, SurfaceBatch::kCapacity> material;
@@ -75,6 +91,12 @@ void fetch(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch,
   else
     for (std::size_t i = 0; i < size; ++i) out.material[i] = material[batch.run[i]];
   for (std::size_t r = runs; r < whole_groups(batch.runs); ++r) batch.index[r] = batch.index[runs - 1];
+}
+
+double longest_direction(const Camera& camera) {
+  const auto size = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+  return (1 + 0x1p-40) *
+         (camera.columns() * size(camera.right) + camera.rows() * size(camera.up) + size(camera.axis_part()));
 }
 
 Ray ray_of(const Camera& camera, const SurfaceBatch& batch, std::size_t i) {
@@ -124,6 +146,7 @@ void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const Shadin
                          as_vec(camera.right),
                          as_vec(camera.up),
                          as_vec(camera.axis_part()),
+                         longest_direction(camera),
                          tables.length_scale};
   batch.any_doubtful = false;
   by_isa(isa, surfaces_scalar, surfaces_avx2, surfaces_avx512)(view, batch, out);

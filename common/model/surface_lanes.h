@@ -11,6 +11,7 @@ namespace sidelight {
 struct SurfaceView {
   const Scene& scene;
   Vec3<double> eye, right, up, axis;  // of the camera
+  double longest = 0;                 // size() of no eye ray's direction is more
   double length_scale = 1;            // of the shading tables
 };
 
@@ -105,13 +106,14 @@ auto rounded(const Vec3<F>& v) {
   return Vec3<Floats>{to_float(v.x), to_float(v.y), to_float(v.z)};
 }
 
-// Gives unit length to what has been rounded, as unit_rounded() does; what it does otherwise is doubtful. F: floats.
+// Gives the length `length` (1 or -1) to what has been rounded, as unit_rounded() does; what it does otherwise is doubtful.
+// F: floats.
 template <class F>
-void make_unit(ShadingBatch::Rgb& vectors, SurfaceBatch& batch) {
+void make_unit(ShadingBatch::Rgb& vectors, const F& length, SurfaceBatch& batch) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>) {
     const Vec3<F> v{load<F>(&vectors[0][i]), load<F>(&vectors[1][i]), load<F>(&vectors[2][i])};
     const F length2 = dot(v, v);
-    put((F(1) / square_root(length2)) * v, vectors, i);
+    put((length / square_root(length2)) * v, vectors, i);
     const Mask<F> odd = !(length2 >= F(kLeastPlain) && length2 <= F(kMostPlain));
     if (!any<F>(odd)) continue;
     batch.any_doubtful = true;
@@ -129,13 +131,13 @@ void put_position(const SurfaceView& view, const Vec3<F>& point, ShadingBatch& o
   put(rounded(scaled), out.high, i);
   put(rounded(Vec3<F>{above(scaled.x), above(scaled.y), above(scaled.z)}), out.low, i);
 }
-// N and V are left to make_unit().
+// N and -V are left to make_unit().
 template <class F>
 void put_point(const SurfaceView& view, const Vec3<F>& point, const Vec3<F>& normal, const Vec3<F>& direction,
                ShadingBatch& out, std::size_t i) {
   put_position(view, point, out, i);
   put(rounded(normal), out.normal, i);
-  put(rounded(-direction), out.to_viewer, i);
+  put(rounded(direction), out.to_viewer, i);
 }
 
 }  // namespace sidelight

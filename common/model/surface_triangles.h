@@ -17,8 +17,8 @@ struct alignas(64) TriangleRuns {
 
   std::array<Vectors, 3> edge;
   Vectors v0, e1, e2;
-  Vectors normal, to_normal1,
-      to_normal2;     // of vertex 0, on the side of Nv; and from it to those of the others
+  // On the side of Nv: the normal of vertex 0, and the ways from it to those of the others.
+  Vectors normal, to_normal1, to_normal2;
   Channel least_sum;  // of the edge values, a unit of |d|; infinite where nothing is sure
   // If t is asked for.
   Vectors n;
@@ -46,8 +46,8 @@ class TriangleSurfaces {
 
   void find_all() {
     for (std::size_t r = 0; r < static_cast<std::size_t>(batch_.runs); r += kCount) see(r);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.size); i += kCount) locate(i);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.size); i += kCount) interpolate(i);
+    for_each_vector([&](std::size_t i, const auto& of_run) { locate(i, of_run); });
+    for_each_vector([&](std::size_t i, const auto& of_run) { interpolate(i, of_run); });
   }
 
  private:
@@ -148,14 +148,24 @@ class TriangleSurfaces {
 
   // ---- The samples ----
 
-  void locate(std::size_t i) {
-    const AscendingLanes<F> of_run(&batch_.run[i]);
+  // visit(first sample, which run each lane is of).
+  template <class Visit>
+  void for_each_vector(const Visit& visit) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.size); i += kCount)
+      if (batch_.run[i] == batch_.run[i + kCount - 1])
+        visit(i, OneEntry<F>(batch_.run[i]));
+      else
+        visit(i, AscendingLanes<F>(&batch_.run[i]));
+  }
+
+  template <class OfRun>
+  void locate(std::size_t i, const OfRun& of_run) {
     Vec3<F> d;
     SurfaceLanes<F>(batch_, i).direction(view_, d);
-    if (batch_.shiny) sidelight::put(rounded(-d), out_.to_viewer, i);
+    if (batch_.shiny) sidelight::put(rounded(d), out_.to_viewer, i);
     std::array<F, 3> e;
     for (std::size_t k = 0; k < 3; ++k) e[k] = dot(d, of_run.vector(runs_.edge[k]));
-    const F all = (e[0] + e[1]) + e[2], size_of_d = size(d);
+    const F all = (e[0] + e[1]) + e[2], size_of_d = batch_.own_rays ? size(d) : F(view_.longest);
     Mask<F> sure = lane_abs(all) >= size_of_d * of_run(runs_.least_sum.data());
     // What rounding gave the other sign is 0.
     const F sign = select<F>(all < F(0), F(-1), F(1));
@@ -167,8 +177,8 @@ class TriangleSurfaces {
     SurfaceLanes<F>(batch_, i).put_doubt(sure);
   }
 
-  void interpolate(std::size_t i) {
-    const AscendingLanes<F> of_run(&batch_.run[i]);
+  template <class OfRun>
+  void interpolate(std::size_t i, const OfRun& of_run) {
     const F b1 = load<F>(&b1_[i]), b2 = load<F>(&b2_[i]);
     const auto between = [&](const auto& v, const auto& to1, const auto& to2) {
       return (of_run.vector(v) + b1 * of_run.vector(to1)) + b2 * of_run.vector(to2);
@@ -186,8 +196,8 @@ class TriangleSurfaces {
   }
 
   // |d| 4 sqrt(S T) <= 2^31 |d . n| iff |d|² S T <= 2^58 (d . n)²; 2^57 for the rounding of the bound.
-  void find_depth(std::size_t i, const AscendingLanes<F>& of_run, const Vec3<F>& d, const F& size_of_d,
-                  Mask<F>& sure) {
+  template <class OfRun>
+  void find_depth(std::size_t i, const OfRun& of_run, const Vec3<F>& d, const F& size_of_d, Mask<F>& sure) {
     const F d_n = dot(d, of_run.vector(runs_.n));
     const F t = of_run(runs_.a0_n.data()) / d_n;
     sure = sure && t > F(0) &&
