@@ -2,6 +2,7 @@
 #include "common/model/surface_batch.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "common/model/surface_kernel.h"
 #include "common/prefetch.h"
@@ -41,24 +42,31 @@ bool is_one(const SurfaceBatch& batch, std::size_t first, std::uint32_t primitiv
   return stdx::all_of(unlike == 0);
 }
 
-// Of each run, some entry.
-void find_runs(SurfaceBatch& batch, std::array<std::uint32_t, SurfaceBatch::kCapacity>& entry) {
+using Entries = std::array<std::uint32_t, SurfaceBatch::kCapacity>;
+
+// Of each run, some entry. (No branch where primitives change: that is hard to foresee.)
+void find_runs(SurfaceBatch& batch, Entries& entry) {
   const std::size_t size = whole_groups(batch.size);
-  std::uint32_t run = 0, last = batch.primitive[0];
-  entry[0] = 0;
+  if (batch.own_rays) {
+    std::iota(batch.run.begin(), batch.run.begin() + static_cast<std::ptrdiff_t>(size), 0);
+    std::iota(entry.begin(), entry.begin() + static_cast<std::ptrdiff_t>(size), 0);
+    batch.runs = static_cast<int>(size);
+    return;
+  }
+  std::uint32_t runs = 0, last = ~batch.primitive[0];
   for (std::size_t group = 0; group < size; group += kGroup) {
-    if (!batch.own_rays && is_one(batch, group, last)) {
-      std::fill_n(&batch.run[group], kGroup, run);
+    if (is_one(batch, group, last)) {
+      std::fill_n(&batch.run[group], kGroup, runs - 1);
       continue;
     }
     for (std::size_t i = group; i < group + kGroup; ++i) {
-      run += i > 0 && (batch.own_rays || batch.primitive[i] != last);
+      runs += static_cast<std::uint32_t>(batch.primitive[i] != last);
       last = batch.primitive[i];
-      batch.run[i] = run;
-      entry[run] = static_cast<std::uint32_t>(i);
+      batch.run[i] = runs - 1;
+      entry[runs - 1] = static_cast<std::uint32_t>(i);
     }
   }
-  batch.runs = static_cast<int>(run) + 1;
+  batch.runs = static_cast<int>(runs);
 }
 
 std::uint32_t material_of(const Scene& scene, ObjectKind kind, std::uint32_t index) {
@@ -69,7 +77,7 @@ std::uint32_t material_of(const Scene& scene, ObjectKind kind, std::uint32_t ind
 
 // What the kernel has to know of the primitives, and what shading has to.
 void fetch(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch, ShadingBatch& out) {
-  std::array<std::uint32_t, SurfaceBatch::kCapacity> entry;
+  Entries entry;
   find_runs(batch, entry);
   batch.shiny = false;
   PrimitiveFinder find(scene);
@@ -78,7 +86,7 @@ void fetch(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch,
     batch.index[r] = find(batch.primitive[entry[r]]).index;
     if (!batch.prefetched) prefetch_surface(scene, {batch.kind, batch.index[r]});
   }
-  std::array<std::uint32_t, SurfaceBatch::kCapacity> material;
+  Entries material;
   std::uint32_t unlike = 0;
   for (std::size_t r = 0; r < runs; ++r) {
     material[r] = material_of(scene, batch.kind, batch.index[r]);
