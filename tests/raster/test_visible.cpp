@@ -4,6 +4,7 @@
 // depth, beside spheres and planes, in crops, with any tile, thread and sample count. (The twin makes the layer cost.)
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -192,7 +193,7 @@ TEST_CASE("visible: every pixel is written, whatever the frame's memory held") {
   {
     Frame spoiled = first;
     const auto spoil = [](auto& array) {
-      std::memset(static_cast<void*>(array.data()), 0xff, array.size() * sizeof(array[0]));
+      std::fill_n(reinterpret_cast<unsigned char*>(array.data()), array.size() * sizeof(array[0]), 0xff);
     };
     spoil(spoiled.color);
     for (auto& layer : spoiled.rgb) spoil(layer);
