@@ -9,12 +9,6 @@
 
 namespace sidelight::raytrace {
 
-// As glm::normalize has it.
-template <class D>
-[[gnu::always_inline]] inline Vec3<D> normalized(const Vec3<D>& v) {
-  return (D(1) / square_root(dot(v, v))) * v;
-}
-
 // Turned over about Nv where its height above the surface is wrong.
 template <class D>
 [[gnu::always_inline]] inline Vec3<D> folded(const Vec3<D>& v, const Vec3<D>& facing, const D& height,

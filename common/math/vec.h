@@ -34,6 +34,12 @@ Vec3<F> select(const Mask<F>& mask, const Vec3<F>& if_true, const Vec3<F>& if_fa
           select<F>(mask, if_true.z, if_false.z)};
 }
 
+// Unit length as glm::normalize has it, by the reciprocal of the length; not for zero.
+template <class F>
+[[gnu::always_inline]] inline Vec3<F> normalized(const Vec3<F>& v) {
+  return (F(1) / square_root(dot(v, v))) * v;
+}
+
 // Unit length; a zero vector stays zero.
 template <class F>
 Vec3<F> unit(const Vec3<F>& v) {

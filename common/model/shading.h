@@ -58,7 +58,7 @@ struct ShadingBatch {
   using Rgb = std::array<Channel, 3>;
 
   int size = 0;
-  alignas(64) Rgb high{}, low{}, normal{}, to_viewer{};  // V only where some material of the group is shiny
+  alignas(64) Rgb high{}, low{}, normal{}, to_viewer{};  // V only where some material of the batch is shiny
   alignas(64) Rgb facing{};                              // only light_terms() asks for it
   std::array<std::uint32_t, static_cast<std::size_t>(kCapacity)> material{};  // into ShadingTables::materials
   // Results, c1 included: R = local (ka Ia + sum T_i), and its three parts, if asked for.

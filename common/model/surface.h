@@ -13,8 +13,7 @@ namespace sidelight {
 
 struct Surface : Place {
   glm::dvec3 normal{0};  // N: the interpolated normal on the side of Nv; Nv where there is none; unit
-  glm::dvec3 smooth{
-      0};  // the same before it is given unit length, which float light does for itself (shading.h)
+  glm::dvec3 smooth{0};  // the same before it has unit length, which light in float gives it (shading.h)
   std::uint32_t object = 0;
   std::uint32_t material = 0;
 };

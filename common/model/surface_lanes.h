@@ -27,11 +27,6 @@ template <class F>
 Vec3<F> absolute(const Vec3<F>& v) {
   return {lane_abs(v.x), lane_abs(v.y), lane_abs(v.z)};
 }
-// As glm::normalize: by the reciprocal of the length.
-template <class F>
-Vec3<F> normalized(const Vec3<F>& v) {
-  return (F(1) / square_root(dot(v, v))) * v;
-}
 
 // ---- From and to the batches ----
 

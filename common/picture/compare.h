@@ -47,9 +47,9 @@ Comparison compare(const Frame& rastered, const Frame& traced, std::size_t light
 // the ledger layers.
 std::vector<glm::vec3> cause_map(const Frame& rastered, const Frame& traced);
 inline constexpr std::array<Layer, 3> kCauseLayers{Layer::shadow, Layer::reflection, Layer::refraction};
-inline constexpr std::array<const char*, 3> kCauseNames{"shadow", "reflection",
-                                                        "refraction"};  // in their order
-extern const std::array<glm::vec3, 3> kCauseHues;                       // linear RGB, likewise
+// In their order; hues in linear RGB.
+inline constexpr std::array<const char*, 3> kCauseNames{"shadow", "reflection", "refraction"};
+extern const std::array<glm::vec3, 3> kCauseHues;
 
 // The z-buffer's picture becoming the tracer's: R, R - S, R - S + M and R - S + M + G. `traced` with the ledger layers.
 std::array<KeptArray<glm::vec3>, 4> ledger_sums(const Frame& rastered, const Frame& traced);
