@@ -54,7 +54,7 @@ void Wave::find_shadows(std::size_t light, RenderStats& stats) {
       asking += asks && !hidden;
       stats.rays.shadow += asks;
       stats.self_shadowed += state[i] == LightTerms::kSelfShadowed;
-      if (asks && hidden) state[i] = LightTerms::kSelfShadowed;
+      if (asks && hidden) state[i] = LightTerms::kSelfShadowed;  // b_i = 0, as there
     }
   }
   asking_.resize(asking);
