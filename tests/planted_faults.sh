@@ -19,7 +19,8 @@ tests=(tests/CMakeLists.txt tests/main.cpp tests/tiers.txt tests/support tests/a
   tests/agreement/test_references.cpp tests/agreement/test_lecture_pixels_local.cpp tests/model/test_visibility.cpp
   tests/hardcases/test_shadows.cpp tests/hardcases/test_triangles.cpp
   tests/judges/test_povray_terms.cpp tests/raster/test_visible.cpp
-  tests/raytrace/test_enclosed.cpp tests/raytrace/test_lone_hit.cpp tests/raytrace/test_packets.cpp tests/raytrace/test_ray_kernel.cpp
+  tests/raytrace/test_enclosed.cpp tests/raytrace/test_lone_hit.cpp tests/raytrace/test_packets.cpp
+  tests/raytrace/test_ray_kernel.cpp
   tests/raytrace/test_wave.cpp)
 
 # Makes the copy equal to the source. Only files that differ are written, so that the build sees just those as new; one

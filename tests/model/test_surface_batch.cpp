@@ -67,6 +67,7 @@ bool same(const SurfaceBatch::Vectors& batch, std::size_t i, const glm::dvec3& v
 // How rays come and what is asked for.
 struct Mode {
   bool has_t = false, own_rays = false, want_leaving = false;
+  bool by_rows = false;  // row by row, each primitive in turn: short runs, several to a vector
 };
 
 struct Outcome {
@@ -123,29 +124,32 @@ Outcome compared(Isa isa, const Mode& mode) {
       std::vector<Ray> rays;
       std::vector<Hit> hits;
       SignCounts counts;
-      for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
-        if (primitive_ref(scene, primitive).kind != batch.kind) continue;
-        for (int Y = 0; Y < camera.rows(); ++Y)
-          for (int X = 0; X < camera.columns(); ++X) {
-            const Ray ray{camera.eye, camera.direction(X, Y)};
-            const Hit hit = intersect(scene, primitive, ray, kRayStart, counts);
-            if (!hit.found()) continue;
-            const auto i = static_cast<std::size_t>(batch.size);
-            batch.t[i] = hit.t;
-            for (int axis = 0; axis < 3 && mode.own_rays; ++axis) {
-              batch.origin[static_cast<std::size_t>(axis)][i] = ray.origin[axis];
-              batch.direction[static_cast<std::size_t>(axis)][i] = ray.direction[axis];
-            }
-            batch.add(camera.column_factor(X), camera.row_factor(Y), &primitive, 1);
-            rays.push_back(ray);
-            hits.push_back(hit);
-            // Sizes of all kinds: whole batches, and less.
-            if (batch.room() > 0 && random.below(80) != 0) continue;
-            check(isa, scene, camera, tables, batch, rays, hits, outcome);
-            rays.clear();
-            hits.clear();
-          }
-      }
+      const auto see = [&](std::uint32_t primitive, int X, int Y) {
+        const Ray ray{camera.eye, camera.direction(X, Y)};
+        const Hit hit = intersect(scene, primitive, ray, kRayStart, counts);
+        if (!hit.found()) return;
+        const auto i = static_cast<std::size_t>(batch.size);
+        batch.t[i] = hit.t;
+        for (int axis = 0; axis < 3 && mode.own_rays; ++axis) {
+          batch.origin[static_cast<std::size_t>(axis)][i] = ray.origin[axis];
+          batch.direction[static_cast<std::size_t>(axis)][i] = ray.direction[axis];
+        }
+        batch.add(camera.column_factor(X), camera.row_factor(Y), &primitive, 1);
+        rays.push_back(ray);
+        hits.push_back(hit);
+        // Sizes of all kinds: whole batches, and less.
+        if (batch.room() > 0 && random.below(80) != 0) return;
+        check(isa, scene, camera, tables, batch, rays, hits, outcome);
+        rays.clear();
+        hits.clear();
+      };
+      const int all = camera.rows(), together = mode.by_rows ? 1 : all;
+      for (int first = 0; first < all; first += together)
+        for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
+          if (primitive_ref(scene, primitive).kind != batch.kind) continue;
+          for (int Y = first; Y < first + together; ++Y)
+            for (int X = 0; X < camera.columns(); ++X) see(primitive, X, Y);
+        }
       check(isa, scene, camera, tables, batch, rays, hits, outcome);
     }
   }
@@ -155,7 +159,8 @@ Outcome compared(Isa isa, const Mode& mode) {
 void check_isa(Isa isa) {
   if (!machine_has(isa)) return skip_test(std::string("no ") + std::string(isa_name(isa)));
   for (const Mode& mode :
-       {Mode{}, Mode{true, false, false}, Mode{false, false, true}, Mode{true, true, true}}) {
+       {Mode{}, Mode{.by_rows = true}, Mode{.has_t = true}, Mode{.want_leaving = true, .by_rows = true},
+        Mode{.want_leaving = true}, Mode{.has_t = true, .own_rays = true, .want_leaving = true}}) {
     const Outcome outcome = compared(isa, mode);
     CHECK(outcome.entries > 1000);
     CHECK(outcome.unlike == 0);
