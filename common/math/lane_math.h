@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "common/math/lanes.h"
+#include "common/math/lane_ops.h"
 
 namespace sidelight {
 
@@ -17,9 +17,10 @@ template <class T>
 struct Series;
 template <>
 struct Series<float> {
-  static constexpr int kExpTerms = 7;                         // (ln 2 / 2)^8 / 8! = 5e-9
-  static constexpr int kAtanhTerms = 4;                       // 0.1716^10 / 11 = 2e-9 relative
-  static constexpr float kExpLow = -87.0f, kExpHigh = 88.0f;  // results stay normal
+  static constexpr int kExpTerms = 7;    // (ln 2 / 2)^8 / 8! = 5e-9
+  static constexpr int kAtanhTerms = 4;  // 0.1716^10 / 11 = 2e-9 relative
+  // e^kExpLow is the least result, a normal number: below, n rounds to 1 - kBias, and so it does of kExpNone.
+  static constexpr float kExpLow = -0x1.5bf5bap+6f, kExpNone = -87.25f, kExpHigh = 88.0f;
   static constexpr int kMantissaBits = 23, kBias = 127;
   static constexpr float kRound = 0x1.8p23f;  // x + kRound has the nearest whole number in its low bits
   static constexpr float kLn2High = 0x1.62e4p-1f, kLn2Low = 0x1.7f7d1cp-20f;  // n * high is exact
@@ -28,7 +29,7 @@ template <>
 struct Series<double> {
   static constexpr int kExpTerms = 13;   // (ln 2 / 2)^14 / 14! = 4e-18
   static constexpr int kAtanhTerms = 9;  // 0.1716^20 / 21 = 2e-17 relative
-  static constexpr double kExpLow = -708.0, kExpHigh = 709.0;
+  static constexpr double kExpLow = -0x1.62066151add8ap+9, kExpNone = -708.25, kExpHigh = 709.0;
   static constexpr int kMantissaBits = 52, kBias = 1023;
   static constexpr double kRound = 0x1.8p52;
   static constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
@@ -71,22 +72,22 @@ F lane_exp(const F& x) {
   using S = detail::Series<Scalar<F>>;
   using T = Scalar<F>;
   // x = n ln 2 + r, |r| <= ln 2 / 2 (and a little)
-  const Mask<F> underflow = x < F(S::kExpLow);
-  const F safe = select<F>(underflow, F(0), x);
-  const F rounded = safe * F(T(1.442695040888963407)) + F(S::kRound);
+  const F known = lane_max<F>(x, F(S::kExpNone));
+  const F rounded = known * F(T(1.442695040888963407)) + F(S::kRound);
   const F n = rounded - F(S::kRound);
-  const F r = (safe - n * F(S::kLn2High)) - n * F(S::kLn2Low);
+  const F r = (known - n * F(S::kLn2High)) - n * F(S::kLn2Low);
   constexpr auto kSeries = detail::exp_series<T>();
-  // 2^n from the low bits of `rounded`
+  // 2^(n-1) from the low bits of `rounded`; of the least n, 1 - kBias, these are the bits of 0.
   using Bits = decltype(to_bits(x));
-  const F power =
-      from_bits<F>((to_bits<F>(rounded) << S::kMantissaBits) + (Bits(S::kBias) << S::kMantissaBits));
+  const F half_power =
+      from_bits<F>((to_bits<F>(rounded) << S::kMantissaBits) + (Bits(S::kBias - 1) << S::kMantissaBits));
   // Roundings, in ulp of the result: 1/4 in r, 1/4 and 1/2 in the last two sums, below 1/8 in all others together.
   const F exp_r = F(1) + (r + r * r * polynomial<F>(r, kSeries));
-  return select<F>(underflow, F(0), exp_r * power);
+  return (exp_r + exp_r) * half_power;
 }
 
-// log(1 + x) for -1 < x <= 1. Relative error: float 4 ulp, double 4 ulp, for tiny x too.
+// log(1 + x) for -1 < x <= 1. Relative error: float 4 ulp, double 4 ulp, for tiny x too. Of -1 it is some number below
+// all others.
 template <class F>
 F lane_log1p(const F& x) {
   using S = detail::Series<Scalar<F>>;

@@ -63,58 +63,55 @@ Vec3<F> ambient_term(const ShadingPoint<F>& point, const Vec3<F>& ambient_light)
 // the other for all of them, so that the processor has many short chains at hand and not a few long ones.
 template <class F>
 struct LightView {
-  Vec3<F> to_light;    // L
+  Vec3<F> to_light;    // L, of length 0 where d = 0
   F cosine, arriving;  // N.L, f(d)
-  Mask<F> lit;         // N.L > 0 and d > 0
 };
 
 template <class F>
 LightView<F> view_light(const Vec3<F>& high, const Vec3<F>& low, const Vec3<F>& normal,
                         const ShadingLight<Scalar<F>>& light) {
   const auto wide = [](const std::array<Scalar<F>, 3>& v) { return Vec3<F>{F(v[0]), F(v[1]), F(v[2])}; };
-  LightView<F> view{wide(light.high), F(0), F(1), Mask<F>(true)};
+  LightView<F> view{wide(light.high), F(0), F(1)};
   if (!light.directional) {
     const Vec3<F> offset = (wide(light.high) - high) + (wide(light.low) - low);
-    const F distance2 = dot(offset, offset);
-    view.lit = distance2 > F(0);
-    const F distance = square_root(select<F>(view.lit, distance2, F(1)));
+    // Where d² is below what float holds, L is short, and 0 where d is: then N.L > 0 does not hold.
+    const F distance2 = lane_max<F>(dot(offset, offset), F(std::numeric_limits<Scalar<F>>::min()));
+    const F distance = square_root(distance2);
     view.to_light = (F(1) / distance) * offset;
     if (light.attenuated)
       view.arriving = F(1) / ((F(light.q0) + F(light.q1) * distance) + F(light.q2) * distance2);
   }
   view.cosine = dot(normal, view.to_light);
-  view.lit = view.lit && view.cosine > F(0);
   return view;
 }
 
 // max(0, Rl.V)^s for unit Rl, V is exp(s log1p(-|Rl - V|²/2)): 1 - Rl.V without the cancellation that makes a power of a
-// float dot product wrong by 37 % at s = 10^6. This is |Rl - V|²/2 where Rl.V > 0 and `wanted`, and 1 elsewhere.
+// float dot product wrong by 37 % at s = 10^6. This is |Rl - V|²/2 where Rl.V > 0 and N.L > 0, and 1 elsewhere.
 template <class F>
-F below_one(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const Mask<F>& wanted) {
+F below_one(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const F& lit_cosine) {
   const Vec3<F> apart = mirrored - to_viewer;
   const F below = F(Scalar<F>(0.5)) * dot(apart, apart);  // 1 - Rl.V
   // Next to grazing, rounding takes it to 1 and beyond: then the smallest cosine it can tell from 0, so that s = 0 is 1.
   const F most = F(1 - std::numeric_limits<Scalar<F>>::epsilon() / 2);
-  const F capped = select<F>(below < most, below, most);
-  return select<F>(wanted && dot(mirrored, to_viewer) > F(0), capped, F(1));
+  const Mask<F> seen = lane_min<F>(dot(mirrored, to_viewer), lit_cosine) > F(0);
+  return select<F>(seen, lane_min<F>(below, most), F(1));
 }
 template <class F>
-F below_one(const F& lit_cosine, const Vec3<F>& to_light, const Vec3<F>& normal, const Vec3<F>& to_viewer) {
-  const Vec3<F> mirrored = (F(2) * lit_cosine) * normal - to_light;
-  return below_one<F>(mirrored, to_viewer, lit_cosine > F(0));
+Vec3<F> mirrored_light(const F& lit_cosine, const Vec3<F>& to_light, const Vec3<F>& normal) {
+  return (F(2) * lit_cosine) * normal - to_light;
 }
 
 // log of max(0, Rl.V)^s, of which lane_exp() makes 0 where it is nothing.
 template <class F>
 F log_highlight(const F& below, const F& shininess) {
-  const Mask<F> seen = below < F(1);
-  const F log = shininess * lane_log1p<F>(-select<F>(seen, below, F(0)));
-  return select<F>(seen, log, F(-std::numeric_limits<Scalar<F>>::infinity()));
+  // Of 1 it is the log of a number next to 0.
+  return select<F>(below < F(1), shininess * lane_log1p<F>(-below),
+                   F(-std::numeric_limits<Scalar<F>>::infinity()));
 }
 
 template <class F>
-F specular_power(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const F& shininess) {
-  return lane_exp<F>(log_highlight<F>(below_one<F>(mirrored, to_viewer, Mask<F>(true)), shininess));
+F specular_power(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const F& lit_cosine, const F& shininess) {
+  return lane_exp<F>(log_highlight<F>(below_one<F>(mirrored, to_viewer, lit_cosine), shininess));
 }
 
 // What arrives of a light's intensity, where it is lit. (Elsewhere f(d) may be infinite.)
@@ -133,12 +130,12 @@ LightTerm<F> light_term(const ShadingPoint<F>& point, const ShadingLight<Scalar<
   term.cosine = view.cosine;
   term.highlight = F(0);
   term.arriving = view.arriving;
-  term.lit = view.lit;
-  term.self_shadowed = view.lit && dot(point.facing, view.to_light) <= F(0);
-  const F lit_cosine = select<F>(view.lit, view.cosine, F(0));
-  if (shiny && any<F>(view.lit))
-    term.highlight = lane_exp<F>(log_highlight<F>(
-        below_one<F>(lit_cosine, view.to_light, point.normal, point.to_viewer), point.shininess));
+  term.lit = view.cosine > F(0);
+  term.self_shadowed = term.lit && dot(point.facing, view.to_light) <= F(0);
+  const F lit_cosine = lane_max<F>(F(0), view.cosine);
+  if (shiny && any<F>(term.lit))
+    term.highlight = specular_power<F>(mirrored_light<F>(lit_cosine, view.to_light, point.normal),
+                                       point.to_viewer, lit_cosine, point.shininess);
   const Vec3<F> here = light_here<F>(light, view.arriving, lit_cosine);
   term.diffuse = lit_cosine * (here * point.diffuse);
   term.specular = term.highlight * (here * point.specular);

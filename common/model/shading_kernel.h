@@ -102,14 +102,15 @@ void view_light(const ShadingLight<float>& light, const ShadingBatch& batch,
     const LightView<F> view = view_light<F>(load_rgb<F>(batch.high, i), load_rgb<F>(batch.low, i),
                                             load_rgb<F>(batch.normal, i), light);
     out.to_light[v] = {view.to_light.x, view.to_light.y, view.to_light.z};
-    out.cosine[v] = select<F>(view.lit, view.cosine, F(0));
+    out.cosine[v] = lane_max<F>(F(0), view.cosine);
     out.arriving[v] = view.arriving;
   }
   if (!materials.shiny()) return;
   for (std::size_t v = 0; v < vectors; ++v) {
     const std::size_t i = v * kCount;
-    out.log[v] = below_one<F>(out.cosine[v], vec(out.to_light[v]), load_rgb<F>(batch.normal, i),
-                              load_rgb<F>(batch.to_viewer, i));
+    const Vec3<F> mirrored =
+        mirrored_light<F>(out.cosine[v], vec(out.to_light[v]), load_rgb<F>(batch.normal, i));
+    out.log[v] = below_one<F>(mirrored, load_rgb<F>(batch.to_viewer, i), out.cosine[v]);
   }
   for (std::size_t v = 0; v < vectors; ++v)
     out.log[v] = any<F>(out.log[v] < F(1)) ? log_highlight<F>(out.log[v], materials[v].shininess)

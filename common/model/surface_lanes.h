@@ -12,7 +12,7 @@ struct SurfaceView {
   const Scene& scene;
   Vec3<double> eye, right, up, axis;  // of the camera
   double longest = 0;                 // size() of no eye ray's direction is more
-  double length_scale = 1;            // of the shading tables
+  double length_scale = 1;            // of the shading tables: a power of two, so that nothing is rounded
 };
 
 template <class F>
@@ -118,10 +118,9 @@ void make_unit(ShadingBatch::Rgb& vectors, const F& length, SurfaceBatch& batch)
   }
 }
 
-// shading_point()
+// shading_point(), of a point in units of the shading tables.
 template <class F>
-void put_position(const SurfaceView& view, const Vec3<F>& point, ShadingBatch& out, std::size_t i) {
-  const Vec3<F> scaled = F(view.length_scale) * point;
+void put_position(const Vec3<F>& scaled, ShadingBatch& out, std::size_t i) {
   const auto above = [](const F& x) { return x - to_double<F>(to_float(x)); };
   put(rounded(scaled), out.high, i);
   put(rounded(Vec3<F>{above(scaled.x), above(scaled.y), above(scaled.z)}), out.low, i);
@@ -130,7 +129,7 @@ void put_position(const SurfaceView& view, const Vec3<F>& point, ShadingBatch& o
 template <class F>
 void put_point(const SurfaceView& view, const Vec3<F>& point, const Vec3<F>& normal, const Vec3<F>& direction,
                ShadingBatch& out, std::size_t i) {
-  put_position(view, point, out, i);
+  put_position(F(view.length_scale) * point, out, i);
   put(rounded(normal), out.normal, i);
   put(rounded(direction), out.to_viewer, i);
 }

@@ -15,8 +15,8 @@ struct alignas(64) TriangleRuns {
   using Channel = std::array<double, static_cast<std::size_t>(SurfaceBatch::kCapacity) + 8>;
   using Vectors = std::array<Channel, 3>;
 
-  std::array<Vectors, 3> edge;
-  Vectors v0, e1, e2;
+  std::array<Vectors, 3> edge;  // turned so that where a ray meets the triangle their sum is positive
+  Vectors v0, e1, e2;           // in units of the shading tables
   // On the side of Nv: the normal of vertex 0, and the ways from it to those of the others.
   Vectors normal, to_normal1, to_normal2;
   Channel least_sum;  // of the edge values, a unit of |d|; infinite where nothing is sure
@@ -89,20 +89,21 @@ class TriangleSurfaces {
   void see(std::size_t r) {
     const Vec3<F> v0 = corners(r, 0), v1 = corners(r, 1), v2 = corners(r, 2);
     const Vec3<F> e1 = v1 - v0, e2 = v2 - v0, origin = SurfaceLanes<F>(batch_, r).origin(view_);
-    put(v0, runs_.v0, r);
-    put(e1, runs_.e1, r);
-    put(e2, runs_.e2, r);
+    const F scale(view_.length_scale);
+    put(scale * v0, runs_.v0, r);
+    put(scale * e1, runs_.e1, r);
+    put(scale * e2, runs_.e2, r);
     const Vec3<F> a0 = v0 - origin, a1 = v1 - origin, a2 = v2 - origin;
     const Vec3<F> opposite = cross(a1, a2);
-    put(opposite, runs_.edge[0], r);
-    put(cross(a2, a0), runs_.edge[1], r);
-    put(cross(a0, a1), runs_.edge[2], r);
+    const F side = dot(a0, opposite), turn = select<F>(side < F(0), F(-1), F(1));
+    put(turn * opposite, runs_.edge[0], r);
+    put(turn * cross(a2, a0), runs_.edge[1], r);
+    put(turn * cross(a0, a1), runs_.edge[2], r);
 
     const F s0 = dot(a0, a0), s1 = dot(a1, a1), s2 = dot(a2, a2), lengths2 = (s0 + s1) + s2;
-    const F side = dot(a0, opposite);
     Mask<F> sure = side * side > F(0x1p-99) * ((s0 * s1) * s2);
     const Vec3<F> n = cross(e1, e2);
-    const Vec3<F> toward = select<F>(side < F(0), n, -n);  // the side of Nv
+    const Vec3<F> toward = -turn * n;  // the side of Nv
     sure = see_normals(r, toward) && sure;
     const F never(std::numeric_limits<double>::infinity());
     store(select<F>(sure, F(0x1p-30) * lengths2, never), &runs_.least_sum[r]);
@@ -166,10 +167,8 @@ class TriangleSurfaces {
     std::array<F, 3> e;
     for (std::size_t k = 0; k < 3; ++k) e[k] = dot(d, of_run.vector(runs_.edge[k]));
     const F all = (e[0] + e[1]) + e[2], size_of_d = batch_.own_rays ? size(d) : F(view_.longest);
-    Mask<F> sure = lane_abs(all) >= size_of_d * of_run(runs_.least_sum.data());
-    // What rounding gave the other sign is 0.
-    const F sign = select<F>(all < F(0), F(-1), F(1));
-    for (F& each : e) each = lane_max(F(0), sign * each);
+    Mask<F> sure = all >= size_of_d * of_run(runs_.least_sum.data());
+    for (F& each : e) each = lane_max(F(0), each);  // what rounding gave the other sign is 0
     const F per_sum = F(1) / ((e[0] + e[1]) + e[2]);
     store(e[1] * per_sum, &b1_[i]);
     store(e[2] * per_sum, &b2_[i]);
@@ -183,14 +182,14 @@ class TriangleSurfaces {
     const auto between = [&](const auto& v, const auto& to1, const auto& to2) {
       return (of_run.vector(v) + b1 * of_run.vector(to1)) + b2 * of_run.vector(to2);
     };
-    const Vec3<F> point = between(runs_.v0, runs_.e1, runs_.e2);
+    const Vec3<F> scaled = between(runs_.v0, runs_.e1, runs_.e2);
     const Vec3<F> normal = between(runs_.normal, runs_.to_normal1, runs_.to_normal2);
-    put_position(view_, point, out_, i);
+    put_position(scaled, out_, i);
     sidelight::put(rounded(normal), out_.normal, i);
     if (!batch_.want_leaving) return;
     SurfaceLanes<F> lanes(batch_, i);
     const Vec3<F> facing_here = of_run.vector(runs_.facing);
-    lanes.put_leaving(point, facing_here, of_run(runs_.clearance.data()));
+    lanes.put_leaving(F(1 / view_.length_scale) * scaled, facing_here, of_run(runs_.clearance.data()));
     lanes.put_normal(normalized(normal));
     sidelight::put(rounded(facing_here), out_.facing, i);
   }

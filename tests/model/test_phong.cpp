@@ -216,7 +216,7 @@ TEST_CASE("the highlight is within 1e-4 of its peak up to s = 10^6") {
       const glm::dvec3 to_viewer = std::cos(angle) * mirrored + std::sin(angle) * across;
       const Vec3<float> Rl = vec<float>(mirrored), V = vec<float>(to_viewer);
       const auto shininess = static_cast<float>(s);
-      worst = std::max(worst, std::abs(specular_power<float>(Rl, V, shininess) - power));
+      worst = std::max(worst, std::abs(specular_power<float>(Rl, V, 1.0f, shininess) - power));
       const float cosine = Rl.x * V.x + Rl.y * V.y + Rl.z * V.z;
       of_power = std::max(of_power, std::abs(std::pow(cosine, shininess) - power));
     }
