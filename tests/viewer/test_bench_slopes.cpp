@@ -124,7 +124,7 @@ TEST_CASE("bench: the error of a depth limit falls by the mirror's weight a leve
 // the margin is for which facets the picture happens to hold.
 TEST_CASE("bench: the error of facets falls fourfold when their segments double") {
   const BenchResult result = sweep(
-      "picture = { size = [64, 48] }\n"
+      "picture = { size = [40, 30] }\n"
       "camera = { eye = [0.3, 0.4, 2], look_at = [0, 0, 0], view_height = 0.5 }\n"
       "light = [{ direction = [-0.4, -0.3, -1], intensity = 1 }]\n"
       "material.grey = { diffuse = 0.8 }\n"
