@@ -47,8 +47,8 @@ struct Kernels {
                  TinyFragments& tiny);
   void (*draw_small)(const TileView& tile, const ScreenSpace& space, const ScreenVertex* vertices,
                      const Corners3* corners, const SmallTriangle* triangles, std::size_t count);
-  // Brings TileView::farthest up to date.
-  void (*find_farthest)(const TileView& tile);
+  // Brings TileView::farthest up to date, and returns its least.
+  float (*find_farthest)(const TileView& tile);
   void (*draw_large)(const TileView& tile, const LargeSurface& surface);
 };
 

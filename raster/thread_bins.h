@@ -2,6 +2,7 @@
 // What set-up leaves for the tiles (visible_bins.h): a thread's bins, of each tile one.
 #pragma once
 
+#include <algorithm>
 #include <mutex>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace sidelight::raster {
 // What one thread found for one tile.
 struct TileBin {
   std::vector<SmallTriangle> front, back;
+  float nearest_back = 0;                 // the greatest 1/t of a corner of those
   std::vector<ScreenFragment> fragments;  // of tiny triangles
   std::vector<std::uint32_t> large;       // into ThreadBins::large
   std::vector<std::uint32_t> spheres;     // into ThreadBins::spheres
@@ -19,9 +21,14 @@ struct TileBin {
   void clear() {
     front.clear();
     back.clear();
+    nearest_back = 0;
     fragments.clear();
     large.clear();
     spheres.clear();
+  }
+  void add_back(const SmallTriangle& triangle, float nearest) {
+    back.push_back(triangle);
+    nearest_back = std::max(nearest_back, nearest);
   }
   bool empty() const {
     return front.empty() && back.empty() && fragments.empty() && large.empty() && spheres.empty();

@@ -134,8 +134,12 @@ void VisibleBins::set_up_chunk(Workshop& shop, std::uint32_t first_triangle, std
     }
     bins.counts.tests += area(box);
     bins.counts.filtered += 3 * area(box) + 1;  // draw_exactly() takes back what it decides
-    const auto list = kind == TriangleChunk::kFront ? &TileBin::front : &TileBin::back;
-    for_each_bin(bins, box, [&](TileBin& bin) { (bin.*list).push_back(triangle); });
+    if (kind == TriangleChunk::kFront) {
+      for_each_bin(bins, box, [&](TileBin& bin) { bin.front.push_back(triangle); });
+      continue;
+    }
+    const float nearest = std::max({chunk.w[0][place], chunk.w[1][place], chunk.w[2][place]});
+    for_each_bin(bins, box, [&](TileBin& bin) { bin.add_back(triangle, nearest); });
   }
 }
 
@@ -181,14 +185,15 @@ void VisibleBins::set_up_in_double(std::uint32_t index, std::uint32_t primitive,
   if (side == 0) return;  // seen exactly edge-on
   bins.counts.tests += area(box);
   bins.counts.filtered += 3 * area(box);
-  if (small) return for_each_bin(bins, box, [&](TileBin& bin) { bin.back.push_back({index, primitive}); });
+  const float nearest =
+      placed ? std::max({vertices_[vertex[0]].w, vertices_[vertex[1]].w, vertices_[vertex[2]].w})
+             : std::numeric_limits<float>::infinity();
+  if (small) return for_each_bin(bins, box, [&](TileBin& bin) { bin.add_back({index, primitive}, nearest); });
 
   LargeSurface surface;
   surface.primitive = primitive;
   surface.box = box;
-  surface.nearest = std::numeric_limits<float>::infinity();
-  if (placed)
-    surface.nearest = std::max({vertices_[vertex[0]].w, vertices_[vertex[1]].w, vertices_[vertex[2]].w});
+  surface.nearest = nearest;
   surface.edge = edge_sheets(sheet_, view, side);
   surface.depth = depth_sheet(sheet_, view, depth_plane(view, v0, v1, v2));
   const auto number = static_cast<std::uint32_t>(bins.large.size());
@@ -224,7 +229,7 @@ bool VisibleBins::empty(int tile) const {
 }
 
 // Large surfaces first, the near ones before the far: they hide whole blocks. Back faces last: where front faces of
-// closed meshes fill a block, they are hidden.
+// closed meshes fill a block, they are hidden, and where they fill the tile most often all at once.
 void VisibleBins::draw(const TileView& view, int tile) const {
   const auto t = static_cast<std::size_t>(tile);
   std::vector<const LargeSurface*> large;
@@ -237,16 +242,14 @@ void VisibleBins::draw(const TileView& view, int tile) const {
     for (const std::uint32_t number : bins.tiles[t].spheres)
       draw_sphere(view, bins.spheres[number].primitive, bins.spheres[number].box);
   for (const LargeSurface* surface : large) kernels_.draw_large(view, *surface);
-  const auto draw_small = [&](std::vector<SmallTriangle> TileBin::*list) {
-    for (const ThreadBins& bins : threads_) {
-      const std::vector<SmallTriangle>& small = bins.tiles[t].*list;
-      kernels_.draw_small(view, space_, vertices_.data(), corners_, small.data(), small.size());
-    }
+  const auto draw_small = [&](const std::vector<SmallTriangle>& small) {
+    kernels_.draw_small(view, space_, vertices_.data(), corners_, small.data(), small.size());
   };
-  draw_small(&TileBin::front);
+  for (const ThreadBins& bins : threads_) draw_small(bins.tiles[t].front);
   for (const ThreadBins& bins : threads_) draw_fragments(view, bins.tiles[t].fragments);
-  kernels_.find_farthest(view);
-  draw_small(&TileBin::back);
+  const float farthest = kernels_.find_farthest(view);
+  for (const ThreadBins& bins : threads_)
+    if (!(bins.tiles[t].nearest_back * kSurely < farthest)) draw_small(bins.tiles[t].back);
 }
 
 }  // namespace sidelight::raster

@@ -215,14 +215,17 @@ template <class F>
 
 // Beyond the tile all is infinite.
 template <class F>
-[[gnu::flatten]] void find_farthest_of_blocks(const TileView& tile) {
+[[gnu::flatten]] float find_farthest_of_blocks(const TileView& tile) {
   const int rows = (tile.box.y1 - tile.box.y0 + TileView::kBlockRows - 1) / TileView::kBlockRows;
   const float* w = tile.w;
+  float of_all = std::numeric_limits<float>::infinity();
   for (int block = 0; block < rows * tile.block_columns; ++block, w += TileView::kBlock) {
     F far(std::numeric_limits<float>::infinity());
     for (int i = 0; i < TileView::kBlock; i += kLanes<F>) far = lane_min(far, load<F>(w + i));
     tile.farthest[block] = least<F>(far);
+    of_all = lane_min(of_all, tile.farthest[block]);
   }
+  return of_all;
 }
 
 }  // namespace sidelight::raster
