@@ -33,7 +33,7 @@ struct TriangleChunk {
 
 // Tiny triangles are rasterized by set_up(): the samples that they cover, and those that must be asked.
 struct TinyFragments {
-  static constexpr int kBox = 3;  // samples along the edge of a tiny triangle's box, at most
+  static constexpr int kBox = 2;  // samples along the edge of a tiny triangle's box, at most
   static constexpr int kMost = TriangleChunk::kSize * kBox * kBox;
   std::size_t covered = 0, doubtful = 0;
   std::array<ScreenFragment, kMost> fragment;  // .primitive: place in the chunk
