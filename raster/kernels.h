@@ -33,7 +33,7 @@ struct TriangleChunk {
 
 // Tiny triangles are rasterized by set_up(): the samples that they cover, and those that must be asked.
 struct TinyFragments {
-  static constexpr int kBox = 3;  // samples along the edge of a tiny triangle's box, at most
+  static constexpr int kBox = 2;  // samples along the edge of a tiny triangle's box, at most
   static constexpr int kMost = TriangleChunk::kSize * kBox * kBox;
   std::size_t covered = 0, doubtful = 0;
   std::array<ScreenFragment, kMost> fragment;  // .primitive: place in the chunk
@@ -47,8 +47,8 @@ struct Kernels {
                  TinyFragments& tiny);
   void (*draw_small)(const TileView& tile, const ScreenSpace& space, const ScreenVertex* vertices,
                      const Corners3* corners, const SmallTriangle* triangles, std::size_t count);
-  // Brings TileView::farthest up to date.
-  void (*find_farthest)(const TileView& tile);
+  // Brings TileView::farthest up to date, and returns its least.
+  float (*find_farthest)(const TileView& tile);
   void (*draw_large)(const TileView& tile, const LargeSurface& surface);
 };
 

@@ -76,8 +76,7 @@ void for_each_tile(const Job& job, Frame& frame, const ShadeTile& shade_tile) {
 
 void render_fast(const Job& job, Frame& frame) {
   const Scene& scene = job.prepared.scene;
-  const VisibleBins bins(scene, job.prepared.corners.data(), job.camera, job.grid, job.options.isa,
-                         job.threads);
+  const VisibleBins bins(job.prepared, job.camera, job.grid, job.options.isa, job.threads);
   const auto threads = static_cast<std::size_t>(job.threads);
   std::vector<VisibleTile> tiles(threads);
   std::vector<ThreadTimes> times(threads);
@@ -86,10 +85,14 @@ void render_fast(const Job& job, Frame& frame) {
     VisibleTile& visible = tiles[static_cast<std::size_t>(thread)];
     ThreadTimes& spent = times[static_cast<std::size_t>(thread)];
     LapClock clock;
-    const TileView view = visible.clear(scene, job.camera, samples_of(pixels, job.camera.n), counts);
-    bins.draw(view, tile);
-    spent.draw_ms += clock.lap_ms();
-    resolve.shade(pixels, visible.primitives(view), counts);
+    if (bins.empty(tile)) {
+      resolve.shade_background(pixels);
+    } else {
+      const TileView view = visible.clear(scene, job.camera, samples_of(pixels, job.camera.n), counts);
+      bins.draw(view, tile);
+      spent.draw_ms += clock.lap_ms();
+      resolve.shade(pixels, visible.primitives(view), counts);
+    }
     resolve.write(frame);
     spent.shade_ms += clock.lap_ms();
   });

@@ -5,6 +5,7 @@
 #include "common/large_pages.h"
 #include "common/model/shading.h"
 #include "raster/raster.h"
+#include "raster/thread_bins.h"
 
 namespace sidelight::raster {
 
@@ -16,13 +17,14 @@ class Prepared {
     move_to_large_pages<glm::dvec3>(s.positions);
     move_to_large_pages<glm::dvec3>(s.normals);
     move_to_large_pages<Triangle>(s.triangles);
-    move_to_large_pages<std::array<std::uint32_t, 3>>(corners);
+    move_to_large_pages<Corners3>(corners);
   }
 
   const Scene& scene;
   ShadingTables tables;
   // Of every triangle: all of it that set-up reads, four at a time, so that after the last there are three more.
-  std::vector<std::array<std::uint32_t, 3>> corners;
+  std::vector<Corners3> corners;
+  mutable KeptBins bins;
 };
 
 }  // namespace sidelight::raster

@@ -22,6 +22,8 @@ class TileResolve {
   // The samples of these pixels, of which the z-buffer keeps these primitives (row by row on the lattice; kNone:
   // background). They must stay until the tile is written.
   void shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts);
+  // The same of pixels that show nothing.
+  void shade_background(const Rect& pixels);
   // The same of what a tile of hits holds: a DepthTile, or one with faults, whose depths need not be those of visibility.h.
   template <class Tile>
   void shade_hits(const Rect& pixels, const Tile& tile, SignCounts& counts) {
@@ -72,7 +74,7 @@ class TileResolve {
   void find_runs();
   void prefetch_run(std::size_t run);
   std::size_t shade_row(int row, std::size_t run, bool known_t, SignCounts& counts);
-  void set_background(const Run& run);
+  void set_background(std::size_t first, std::size_t count);
   void flush(Collected& collected, SignCounts& counts);
   void keep(const SurfaceBatch& batch, const Run& run);
 
@@ -81,12 +83,14 @@ class TileResolve {
   Isa isa_;
   int n_;
   bool want_parts_, want_normal_, want_t_;
+  bool prefetch_;
   Rect pixels_;
   // Of each sample, row by row on the lattice. What is not wanted is empty, or holds what came before.
   const std::uint32_t* primitive_ = nullptr;
   std::vector<std::uint32_t> kept_primitive_, tests_;
   std::vector<std::uint32_t> run_start_;  // of runs_ runs of one primitive in a row; and the end of the last
   std::size_t runs_ = 0;
+  std::size_t background_ = 0;  // so many samples, from the first, are known to be set to background
   std::vector<double> known_t_, t_;
   Colors normal_, color_;
   std::array<Colors, 3> parts_;         // ambient, diffuse, specular

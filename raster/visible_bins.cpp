@@ -12,9 +12,11 @@ namespace {
 constexpr std::uint32_t kBatch = 4 * TriangleChunk::kSize;  // triangles handed to a thread at a time
 constexpr std::uint32_t kVertexBatch = 4096;
 
-std::vector<int> tiles_of_samples(int samples, int edge) {
-  std::vector<int> tiles(static_cast<std::size_t>(samples));
-  for (int i = 0; i < samples; ++i) tiles[static_cast<std::size_t>(i)] = i / edge;
+// Of each sample of a row, or of a column: which tile it is in, times `step`.
+std::vector<std::uint32_t> tiles_of_samples(int samples, int edge, int step) {
+  std::vector<std::uint32_t> tiles(static_cast<std::size_t>(samples));
+  for (int i = 0; i < samples; ++i)
+    tiles[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(i / edge * step);
   return tiles;
 }
 
@@ -31,31 +33,31 @@ struct VisibleBins::Workshop {
   std::array<std::uint32_t, TriangleChunk::kSize + 1> queue{};
 };
 
-VisibleBins::VisibleBins(const Scene& scene, const Corners3* corners, const Camera& camera,
-                         const TileGrid& grid, Isa isa, int threads)
-    : scene_(scene),
-      corners_(corners),
+VisibleBins::VisibleBins(const Prepared& prepared, const Camera& camera, const TileGrid& grid, Isa isa,
+                         int threads)
+    : scene_(prepared.scene),
+      corners_(prepared.corners.data()),
+      kept_(prepared.bins),
       camera_(camera),
-      grid_(grid),
       kernels_(kernels_for(isa)),
       space_(camera),
       sheet_(lattice_sheet(camera)),
       window_(samples_of(grid.window, camera.n)),
-      tile_columns_(tiles_of_samples(window_.x1 - window_.x0, camera.n * grid.edge)),
-      tile_rows_(tiles_of_samples(window_.y1 - window_.y0, camera.n * grid.edge)),
-      vertices_(scene.positions.size()),
-      threads_(static_cast<std::size_t>(threads)) {
-  const auto vertices = static_cast<std::uint32_t>(scene.positions.size());
+      tile_columns_(tiles_of_samples(window_.x1 - window_.x0, camera.n * grid.edge, 1)),
+      tile_rows_(tiles_of_samples(window_.y1 - window_.y0, camera.n * grid.edge, grid.columns())),
+      tiles_in_row_(static_cast<std::size_t>(grid.columns())),
+      vertices_(scene_.positions.size()),
+      threads_(kept_.take(threads, grid.count())) {
+  const auto vertices = static_cast<std::uint32_t>(scene_.positions.size());
   parallel_for(static_cast<int>((vertices + kVertexBatch - 1) / kVertexBatch), threads,
                [&](int item, int thread) {
                  LapClock clock;
                  const std::uint32_t first = static_cast<std::uint32_t>(item) * kVertexBatch;
-                 kernels_.project(space_, &scene.positions[first], &vertices_[first],
+                 kernels_.project(space_, &scene_.positions[first], &vertices_[first],
                                   static_cast<int>(std::min(kVertexBatch, vertices - first)));
                  threads_[static_cast<std::size_t>(thread)].project_ms += clock.lap_ms();
                });
 
-  for (ThreadBins& bins : threads_) bins.tiles.resize(static_cast<std::size_t>(grid.count()));
   std::vector<std::unique_ptr<Workshop>> shops(threads_.size());
   const std::vector<Batch> work = batches();
   parallel_for(static_cast<int>(work.size()), threads, [&](int item, int thread) {
@@ -66,7 +68,7 @@ VisibleBins::VisibleBins(const Scene& scene, const Corners3* corners, const Came
     threads_[t].set_up_ms += clock.lap_ms();
   });
   LapClock clock;
-  for (const Object& object : scene.objects)
+  for (const Object& object : scene_.objects)
     if (object.kind != ObjectKind::mesh) set_up_other(object.first_primitive, threads_[0]);
   threads_[0].set_up_ms += clock.lap_ms();
 }
@@ -132,16 +134,19 @@ void VisibleBins::set_up_chunk(Workshop& shop, std::uint32_t first_triangle, std
     }
     bins.counts.tests += area(box);
     bins.counts.filtered += 3 * area(box) + 1;  // draw_exactly() takes back what it decides
-    const auto list = kind == TriangleChunk::kFront ? &TileBin::front : &TileBin::back;
-    for_each_bin(bins, box, [&](TileBin& bin) { (bin.*list).push_back(triangle); });
+    if (kind == TriangleChunk::kFront) {
+      for_each_bin(bins, box, [&](TileBin& bin) { bin.front.push_back(triangle); });
+      continue;
+    }
+    const float nearest = std::max({chunk.w[0][place], chunk.w[1][place], chunk.w[2][place]});
+    for_each_bin(bins, box, [&](TileBin& bin) { bin.add_back(triangle, nearest); });
   }
 }
 
 void VisibleBins::collect_fragments(const TinyFragments& tiny, std::uint32_t first_primitive,
                                     ThreadBins& bins) const {
   const auto put = [&](ScreenFragment fragment) {
-    const int tile = tile_row(fragment.Y) * grid_.columns() + tile_column(fragment.X);
-    bins.tiles[static_cast<std::size_t>(tile)].fragments.push_back(fragment);
+    bins.tiles[tile_row(fragment.Y) + tile_column(fragment.X)].fragments.push_back(fragment);
   };
   for (std::size_t i = 0; i < tiny.covered; ++i) {
     ScreenFragment fragment = tiny.fragment[i];
@@ -180,14 +185,15 @@ void VisibleBins::set_up_in_double(std::uint32_t index, std::uint32_t primitive,
   if (side == 0) return;  // seen exactly edge-on
   bins.counts.tests += area(box);
   bins.counts.filtered += 3 * area(box);
-  if (small) return for_each_bin(bins, box, [&](TileBin& bin) { bin.back.push_back({index, primitive}); });
+  const float nearest =
+      placed ? std::max({vertices_[vertex[0]].w, vertices_[vertex[1]].w, vertices_[vertex[2]].w})
+             : std::numeric_limits<float>::infinity();
+  if (small) return for_each_bin(bins, box, [&](TileBin& bin) { bin.add_back({index, primitive}, nearest); });
 
   LargeSurface surface;
   surface.primitive = primitive;
   surface.box = box;
-  surface.nearest = std::numeric_limits<float>::infinity();
-  if (placed)
-    surface.nearest = std::max({vertices_[vertex[0]].w, vertices_[vertex[1]].w, vertices_[vertex[2]].w});
+  surface.nearest = nearest;
   surface.edge = edge_sheets(sheet_, view, side);
   surface.depth = depth_sheet(sheet_, view, depth_plane(view, v0, v1, v2));
   const auto number = static_cast<std::uint32_t>(bins.large.size());
@@ -216,8 +222,14 @@ void VisibleBins::set_up_other(std::uint32_t primitive, ThreadBins& bins) const 
   for_each_bin(bins, box, [&](TileBin& bin) { bin.large.push_back(number); });
 }
 
+bool VisibleBins::empty(int tile) const {
+  return std::all_of(threads_.begin(), threads_.end(), [&](const ThreadBins& bins) {
+    return bins.tiles[static_cast<std::size_t>(tile)].empty();
+  });
+}
+
 // Large surfaces first, the near ones before the far: they hide whole blocks. Back faces last: where front faces of
-// closed meshes fill a block, they are hidden.
+// closed meshes fill a block, they are hidden, and where they fill the tile most often all at once.
 void VisibleBins::draw(const TileView& view, int tile) const {
   const auto t = static_cast<std::size_t>(tile);
   std::vector<const LargeSurface*> large;
@@ -230,16 +242,14 @@ void VisibleBins::draw(const TileView& view, int tile) const {
     for (const std::uint32_t number : bins.tiles[t].spheres)
       draw_sphere(view, bins.spheres[number].primitive, bins.spheres[number].box);
   for (const LargeSurface* surface : large) kernels_.draw_large(view, *surface);
-  const auto draw_small = [&](std::vector<SmallTriangle> TileBin::*list) {
-    for (const ThreadBins& bins : threads_) {
-      const std::vector<SmallTriangle>& small = bins.tiles[t].*list;
-      kernels_.draw_small(view, space_, vertices_.data(), corners_, small.data(), small.size());
-    }
+  const auto draw_small = [&](const std::vector<SmallTriangle>& small) {
+    kernels_.draw_small(view, space_, vertices_.data(), corners_, small.data(), small.size());
   };
-  draw_small(&TileBin::front);
+  for (const ThreadBins& bins : threads_) draw_small(bins.tiles[t].front);
   for (const ThreadBins& bins : threads_) draw_fragments(view, bins.tiles[t].fragments);
-  kernels_.find_farthest(view);
-  draw_small(&TileBin::back);
+  const float farthest = kernels_.find_farthest(view);
+  for (const ThreadBins& bins : threads_)
+    if (!(bins.tiles[t].nearest_back * kSurely < farthest)) draw_small(bins.tiles[t].back);
 }
 
 }  // namespace sidelight::raster

@@ -3,41 +3,23 @@
 // of its tiles. Each thread has bins of its own, never merged or sorted: what a tile shows depends on (depth, primitive).
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "common/kept_memory.h"
 #include "raster/bins.h"
 #include "raster/kernels.h"
+#include "raster/prepared.h"
 
 namespace sidelight::raster {
 
-// What one thread found for one tile.
-struct TileBin {
-  std::vector<SmallTriangle> front, back;
-  std::vector<ScreenFragment> fragments;  // of tiny triangles
-  std::vector<std::uint32_t> large;       // into ThreadBins::large
-  std::vector<std::uint32_t> spheres;     // into ThreadBins::spheres
-};
-
-struct BoxedSphere {
-  std::uint32_t primitive = kNone;
-  SampleBox box;
-};
-
-struct ThreadBins {
-  std::vector<TileBin> tiles;
-  std::vector<LargeSurface> large;
-  std::vector<BoxedSphere> spheres;
-  SignCounts counts;
-  double project_ms = 0, set_up_ms = 0;  // what the thread spent on it
-};
-
 class VisibleBins {
  public:
-  // `corners`: Prepared::corners.
-  VisibleBins(const Scene& scene, const Corners3* corners, const Camera& camera, const TileGrid& grid,
-              Isa isa, int threads);
+  VisibleBins(const Prepared& prepared, const Camera& camera, const TileGrid& grid, Isa isa, int threads);
+  ~VisibleBins() { kept_.give_back(std::move(threads_)); }
 
+  // Whether nothing may be seen in a tile.
+  bool empty(int tile) const;
   // Draws what the bins of a tile hold, all threads' alike.
   void draw(const TileView& view, int tile) const;
 
@@ -63,22 +45,26 @@ class VisibleBins {
   // put(bin) for the bin of each tile that a box touches.
   template <class Put>
   void for_each_bin(ThreadBins& bins, const SampleBox& box, const Put& put) const {
-    for (int row = tile_row(box.y0); row <= tile_row(box.y1 - 1); ++row)
-      for (int column = tile_column(box.x0); column <= tile_column(box.x1 - 1); ++column)
-        put(bins.tiles[static_cast<std::size_t>(row * grid_.columns() + column)]);
+    const std::size_t first = tile_column(box.x0), last = tile_column(box.x1 - 1);
+    for (std::size_t row = tile_row(box.y0); row <= tile_row(box.y1 - 1); row += tiles_in_row_)
+      for (std::size_t column = first; column <= last; ++column) put(bins.tiles[row + column]);
   }
-  int tile_column(int X) const { return tile_columns_[static_cast<std::size_t>(X - window_.x0)]; }
-  int tile_row(int Y) const { return tile_rows_[static_cast<std::size_t>(Y - window_.y0)]; }
+  // A sample's tile is the sum of the two.
+  std::size_t tile_column(int X) const { return tile_columns_[static_cast<std::size_t>(X - window_.x0)]; }
+  std::size_t tile_row(int Y) const { return tile_rows_[static_cast<std::size_t>(Y - window_.y0)]; }
 
   const Scene& scene_;
   const Corners3* corners_;
+  KeptBins& kept_;
   const Camera& camera_;
-  const TileGrid& grid_;
   const Kernels& kernels_;
   ScreenSpace space_;
   RaySheet sheet_;
   SampleBox window_;
-  std::vector<int> tile_columns_, tile_rows_;  // of each column and row of the window's samples: no division
+  // Of each column and row of the window's samples, so that nothing is divided: the column of tiles that it is in, and the
+  // number of the first tile of its row.
+  std::vector<std::uint32_t> tile_columns_, tile_rows_;
+  std::size_t tiles_in_row_;
   KeptArray<ScreenVertex> vertices_;
   std::vector<ThreadBins> threads_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "raster/visible_keep.h"
 
@@ -43,41 +44,46 @@ bool surely_behind(const LargeSurface& surface, const Anchored& w, float farthes
   return has_sure_depth<F>(surface, w) && w.high * kSurely < farthest;
 }
 
-// The block whose first sample is (X0, Y0).
+// Edges of a surface that some samples may not be inside of.
+struct OpenEdges {
+  std::array<const EdgeSheet*, 3> edge;
+  std::size_t size = 0;
+  std::span<const EdgeSheet* const> all() const { return std::span(edge).first(size); }
+};
+
+// The block whose first sample is (X0, Y0); `open` in the tile.
 template <class F>
-void draw_block(const TileView& tile, const LargeSurface& surface, int X0, int Y0, float& farthest) {
-  constexpr int kColumns = TileView::kBlockColumns;
+void draw_block(const TileView& tile, const LargeSurface& surface, const OpenEdges& open, int X0, int Y0,
+                float& farthest) {
   const Anchored w = anchored<F>(surface.depth.w, surface.depth.error, X0, Y0);
   if (surely_behind<F>(surface, w, farthest)) return;  // hidden: all samples hold something nearer
   const bool sure = has_sure_depth<F>(surface, w);
 
   // Edges that the whole block is inside of need no test; one that it is outside of needs no block.
   std::array<Anchored, 3> edge;
-  int edges = 0;
-  if (surface.bounded)
-    for (const EdgeSheet& each : surface.edge) {
-      edge[static_cast<std::size_t>(edges)] = anchored<F>(each.value, each.error, X0, Y0);
-      const Anchored& e = edge[static_cast<std::size_t>(edges)];
-      if (e.high < 0) return;
-      edges += !(e.low > 0);
-    }
+  std::size_t edges = 0;
+  for (const EdgeSheet* each : open.all()) {
+    edge[edges] = anchored<F>(each->value, each->error, X0, Y0);
+    if (edge[edges].high < 0) return;
+    edges += !(edge[edges].low > 0);
+  }
 
   // Below `floor` w is not within kFloatDepthError of itself.
   const float floor = sure ? w.bound * (1 / kFloatDepthError) : std::numeric_limits<float>::infinity();
-  const int x1 = std::min(surface.box.x1, tile.box.x1) - X0,
-            y1 = std::min({surface.box.y1, tile.box.y1, Y0 + 8}) - Y0;
+  const F not_sure(std::numeric_limits<float>::quiet_NaN());
+  const auto in_block = [&](int place, int first) { return F(static_cast<float>(place - first)); };
+  const F x0 = in_block(surface.box.x0, X0), x1 = in_block(std::min(surface.box.x1, tile.box.x1), X0);
+  const F y0 = in_block(surface.box.y0, Y0), y1 = in_block(std::min(surface.box.y1, tile.box.y1), Y0);
   F least_held(std::numeric_limits<float>::infinity());
-  for (int j = std::max(surface.box.y0 - Y0, 0); j < y1; ++j)
-    for (int i = 0; i < std::min(x1, kColumns); i += kLanes<F>) {
-      const F column = lane_numbers<F>() + F(static_cast<float>(i));
-      const auto value = [&](const Anchored& a) {
-        return F(a.value + static_cast<float>(j) * a.y) + column * F(a.x);
-      };
-      Mask<F> covered =
-          column < F(static_cast<float>(x1)) && column >= F(static_cast<float>(surface.box.x0 - X0));
-      const Mask<F> in_box = covered;
+  std::uint64_t fragments = 0;
+  for (int j = 0; j < TileView::kBlockRows; j += kVectorRows<F>)
+    for (int i = 0; i < TileView::kBlockColumns; i += kVectorColumns<F>) {
+      const F column = lane_columns<F>() + F(static_cast<float>(i));
+      const F row = lane_rows<F>() + F(static_cast<float>(j));
+      const auto value = [&](const Anchored& a) { return (F(a.value) + row * F(a.y)) + column * F(a.x); };
+      Mask<F> covered = (row >= y0 && row < y1) && (column >= x0 && column < x1);
       Mask<F> doubtful = covered;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(edges); ++k) {
+      for (std::size_t k = 0; k < edges; ++k) {
         const F e = value(edge[k]);
         covered = covered && e > F(edge[k].bound);
         doubtful = doubtful && e >= F(-edge[k].bound);
@@ -90,19 +96,21 @@ void draw_block(const TileView& tile, const LargeSurface& surface, int X0, int Y
         if (!sure) doubtful = covered;
         covered = covered && !doubtful && depth > F(0);
       }
-      const int index = tile.index(X0 + i, Y0 + j);
+      const int X = X0 + i, Y = Y0 + j;
       F held;
-      const Mask<F> sure_depth = depth > F(floor);
-      const Mask<F> tied = keep_nearer<F>(tile, index, surface.primitive, covered, sure_depth, depth, held);
-      tile.counts.fragments += static_cast<std::uint64_t>(count<F>(covered));
+      const F sure_depth = select<F>(depth > F(floor), depth, not_sure);
+      const Mask<F> tied =
+          keep_nearer<F>(tile, tile.index(X, Y), surface.primitive, covered, sure_depth, held);
+      fragments += static_cast<std::uint64_t>(count<F>(covered));
       if (any<F>(tied || doubtful)) {
-        order_lanes_exactly<F>(tile, surface.primitive, X0 + i, Y0 + j, tied, depth, sure_depth);
-        for_each_lane<F>(doubtful, X0 + i, Y0 + j, [&](int X, int Y) {
-          draw_exactly(tile, surface.primitive, X, Y, surface.bounded ? 3 : 0);
+        order_lanes_exactly<F>(tile, surface.primitive, X, Y, tied, sure_depth);
+        for_each_lane<F>(doubtful, X, Y, [&](int sx, int sy, int) {
+          draw_exactly(tile, surface.primitive, sx, sy, surface.bounded ? 3 : 0);
         });
       }
-      least_held = lane_min(least_held, select<F>(in_box, held, F(std::numeric_limits<float>::infinity())));
+      least_held = lane_min(least_held, held);
     }
+  tile.counts.fragments += fragments;
   if (edges > 0) return;
   farthest = least<F>(least_held);
 }
@@ -120,15 +128,22 @@ template <class F>
         visit(tile.box.x0 + column * TileView::kBlockColumns, tile.box.y0 + row * TileView::kBlockRows,
               tile.farthest[row * tile.block_columns + column]);
   };
+  const auto columns = static_cast<float>(x1 - 1 - x0), rows = static_cast<float>(y1 - 1 - y0);
   // Layers behind a wall are dropped a whole tile at a time.
   float farthest = std::numeric_limits<float>::infinity();
   for_each_block([&](int, int, float of_block) { farthest = lane_min(farthest, of_block); });
   if (farthest > 0) {
-    const Anchored w = anchored<F>(surface.depth.w, surface.depth.error, x0, y0,
-                                   static_cast<float>(x1 - 1 - x0), static_cast<float>(y1 - 1 - y0));
+    const Anchored w = anchored<F>(surface.depth.w, surface.depth.error, x0, y0, columns, rows);
     if (surely_behind<F>(surface, w, farthest)) return;
   }
-  for_each_block([&](int X, int Y, float& of_block) { draw_block<F>(tile, surface, X, Y, of_block); });
+  OpenEdges open;
+  if (surface.bounded)
+    for (const EdgeSheet& each : surface.edge) {
+      const Anchored e = anchored<F>(each.value, each.error, x0, y0, columns, rows);
+      if (e.high < 0) return;
+      if (!(e.low > 0)) open.edge[open.size++] = &each;
+    }
+  for_each_block([&](int X, int Y, float& of_block) { draw_block<F>(tile, surface, open, X, Y, of_block); });
 }
 
 }  // namespace sidelight::raster

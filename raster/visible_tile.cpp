@@ -2,6 +2,7 @@
 #include "raster/visible_tile.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "raster/screen_triangle.h"
 #include "raster/setup.h"
@@ -48,23 +49,33 @@ void order_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, 
 
 TileView VisibleTile::clear(const Scene& scene, const Camera& camera, const SampleBox& samples,
                             SignCounts& counts) {
+  constexpr int kColumns = TileView::kBlockColumns, kRows = TileView::kBlockRows;
   const int columns = samples.x1 - samples.x0, rows = samples.y1 - samples.y0;
-  const int block_columns = (columns + TileView::kBlockColumns - 1) / TileView::kBlockColumns;
-  const int block_rows = (rows + TileView::kBlockRows - 1) / TileView::kBlockRows;
-  const int stride = block_columns * TileView::kBlockColumns;
-  const auto size = static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows);
-  w_.assign(size, 0.0f);
-  primitive_.assign(size, kNone);
-  farthest_.assign(static_cast<std::size_t>(block_columns) * static_cast<std::size_t>(block_rows), 0.0f);
-  return {scene,           camera, counts, samples, stride, block_columns, w_.data(), primitive_.data(),
-          farthest_.data()};
+  const int block_columns = (columns + kColumns - 1) / kColumns, block_rows = (rows + kRows - 1) / kRows;
+  const auto blocks = static_cast<std::size_t>(block_columns) * static_cast<std::size_t>(block_rows);
+  w_.assign(blocks * TileView::kBlock, 0.0f);
+  primitive_.assign(blocks * TileView::kBlock, kNone);
+  farthest_.assign(blocks, 0.0f);
+  const TileView tile{scene,           camera, counts, samples, block_columns, w_.data(), primitive_.data(),
+                      farthest_.data()};
+  for (int y = 0; y < block_rows * kRows; ++y)
+    for (int x = y < rows ? columns : 0; x < block_columns * kColumns; ++x)
+      tile.w[tile.index(samples.x0 + x, samples.y0 + y)] = std::numeric_limits<float>::infinity();
+  return tile;
 }
 
+// Whole rows of blocks: what that writes beyond the end of a row of samples the next row replaces.
 const std::uint32_t* VisibleTile::primitives(const TileView& tile) {
-  const std::ptrdiff_t columns = tile.box.x1 - tile.box.x0, rows = tile.box.y1 - tile.box.y0;
-  for (std::ptrdiff_t row = 1; row < rows && columns != tile.stride; ++row)
-    std::copy_n(primitive_.begin() + row * tile.stride, columns, primitive_.begin() + row * columns);
-  return primitive_.data();
+  constexpr int kStamp = TileView::kStamp, kBlockColumns = TileView::kBlockColumns;
+  const int columns = tile.box.x1 - tile.box.x0, rows = tile.box.y1 - tile.box.y0;
+  rows_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + kBlockColumns);
+  std::uint32_t* to = rows_.data();
+  for (int y = 0; y < rows; ++y, to += columns) {
+    const std::uint32_t* from = tile.primitive + tile.index(tile.box.x0, tile.box.y0 + y);
+    for (int x = 0; x < columns; x += kBlockColumns, from += TileView::kBlock)
+      for (int i = 0; i < kBlockColumns; i += kStamp) store_four(load_four(from + i * kStamp), to + x + i);
+  }
+  return rows_.data();
 }
 
 void draw_fragments(const TileView& tile, const std::vector<ScreenFragment>& fragments) {

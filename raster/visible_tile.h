@@ -35,28 +35,36 @@ struct ScreenFragment {
   std::uint32_t primitive = kNone;
 };
 
-// What a kernel sees of a tile. Blocks are kBlockColumns x kBlockRows samples, from the tile's upper left; rows hold whole
-// blocks, so that vectors lie at the same places in memory for all triangles, and a store forwards to the next load.
+// What a kernel sees of a tile. Its memory is blocks of kBlockColumns x kBlockRows samples from the tile's upper left, row by
+// row; a block is stamps of kStamp x kStamp, again row by row, and so is a stamp of samples. A stamp is one vector, or a
+// few whole ones: compact, so that most lanes are in a small triangle's box, and at the same place for all triangles, so
+// that a store forwards to the next load.
 struct TileView {
-  static constexpr int kBlockColumns = 16, kBlockRows = 8;
+  static constexpr int kStamp = 4;
+  static constexpr int kBlockColumns = 16, kBlockRows = 8, kBlock = kBlockColumns * kBlockRows;
 
   const Scene& scene;
   const Camera& camera;
   SignCounts& counts;
   SampleBox box;
-  int stride = 0, block_columns = 0;
-  float* w = nullptr;                  // row by row; 0 on background
-  std::uint32_t* primitive = nullptr;  // likewise; kNone on background
+  int block_columns = 0;
+  float* w = nullptr;                  // 0 on background, infinite beyond the tile
+  std::uint32_t* primitive = nullptr;  // kNone on background
   float* farthest = nullptr;           // of each block: no sample is farther, by w
 
-  int index(int X, int Y) const { return (Y - box.y0) * stride + (X - box.x0); }
+  int index(int X, int Y) const {
+    const auto x = static_cast<unsigned>(X - box.x0), y = static_cast<unsigned>(Y - box.y0);
+    const unsigned block = y / kBlockRows * static_cast<unsigned>(block_columns) + x / kBlockColumns;
+    const unsigned stamp = y % kBlockRows / kStamp * (kBlockColumns / kStamp) + x % kBlockColumns / kStamp;
+    return static_cast<int>(block * kBlock + (stamp * kStamp + y % kStamp) * kStamp + x % kStamp);
+  }
 };
 
 // Asks visibility.h whether the primitive covers the sample and is the nearest there. `filtered`: how many signs were
 // counted as decided by the filter in advance.
 void draw_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, int filtered);
-// The same for a primitive that is known to cover the sample: whether it is the nearest. Its w, or 0 where that is not
-// sure. (What a sample holds is so a function of the primitive alone, whichever way it won: no count depends on order.)
+// The same for a primitive that is known to cover the sample: whether it is the nearest. Its w, or none above 0 where that
+// is not sure. (What a sample holds is so a function of the primitive alone, whichever way it won: no count depends on order.)
 void order_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, float w);
 
 class VisibleTile {
@@ -64,12 +72,12 @@ class VisibleTile {
   // Sets the tile to background. The vectors keep their memory from tile to tile.
   TileView clear(const Scene& scene, const Camera& camera, const SampleBox& samples, SignCounts& counts);
 
-  // After all is drawn: the primitive of each sample, row by row, without gaps.
+  // After all is drawn: the primitive of each sample, row by row.
   const std::uint32_t* primitives(const TileView& tile);
 
  private:
   std::vector<float> w_, farthest_;
-  std::vector<std::uint32_t> primitive_;
+  std::vector<std::uint32_t> primitive_, rows_;
 };
 
 void draw_fragments(const TileView& tile, const std::vector<ScreenFragment>& fragments);
