@@ -9,7 +9,7 @@
 namespace sidelight::raytrace {
 namespace {
 
-constexpr int kEdge = 16, kBlock = 4;  // of a packet and of its groups, in samples
+constexpr int kColumns = 32, kRows = 32, kBlock = 4;  // of a packet and, along both edges, of its groups, in samples
 
 // visit(column, row) of a packet's samples, block by block, so that a group's rays are close to each other.
 template <class Visit>
@@ -33,7 +33,8 @@ EyePackets::EyePackets(const Prepared& prepared, const Camera& camera, Isa isa)
   // place.h: what is near lies within 10 (step + 32 u reach) of the place, up to 16 reach away: below 2^-40 reach.
   packet_.near_error = 0x1p-39;
   packet_.lattice = true;
-  packet_.extent_u = packet_.extent_v = kEdge / 2;
+  packet_.extent_u = kColumns / 2;
+  packet_.extent_v = kRows / 2;
   packet_.ask = ask;
   packet_.context = this;
 }
@@ -43,9 +44,9 @@ void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& 
   const auto stride = static_cast<std::size_t>(columns);
   hits.resize(stride * static_cast<std::size_t>(rows));
   alone.resize(hits.size());
-  for (int y = 0; y < rows; y += kEdge)
-    for (int x = 0; x < columns; x += kEdge) {
-      load(X0 + x, Y0 + y, std::min(kEdge, columns - x), std::min(kEdge, rows - y));
+  for (int y = 0; y < rows; y += kRows)
+    for (int x = 0; x < columns; x += kColumns) {
+      load(X0 + x, Y0 + y, std::min(kColumns, columns - x), std::min(kRows, rows - y));
       trace_packet(isa_, prepared_, packet_, counts);
       const std::size_t first = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
       for (std::size_t i = 0; i < static_cast<std::size_t>(packet_.size); ++i) {
@@ -59,9 +60,9 @@ void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& 
 
 std::vector<std::uint32_t> EyePackets::order(int columns, int rows) {
   std::vector<std::uint32_t> order;
-  for (int y = 0; y < rows; y += kEdge)
-    for (int x = 0; x < columns; x += kEdge)
-      for_each_sample(std::min(kEdge, columns - x), std::min(kEdge, rows - y), [&](int column, int row) {
+  for (int y = 0; y < rows; y += kRows)
+    for (int x = 0; x < columns; x += kColumns)
+      for_each_sample(std::min(kColumns, columns - x), std::min(kRows, rows - y), [&](int column, int row) {
         order.push_back(static_cast<std::uint32_t>((y + row) * columns + x + column));
       });
   return order;
@@ -71,7 +72,7 @@ void EyePackets::load(int X0, int Y0, int columns, int rows) {
   X0_ = X0;
   Y0_ = Y0;
   if (columns != columns_ || rows != rows_) place(columns, rows);
-  packet_.W = camera_.direction(X0 + kEdge / 2, Y0 + kEdge / 2);
+  packet_.W = camera_.direction(X0 + kColumns / 2, Y0 + kRows / 2);
   packet_.w.fill(0);
   packet_.least_w.fill(0);
   packet_.budget.fill(std::numeric_limits<std::int32_t>::max());
@@ -84,8 +85,8 @@ void EyePackets::place(int columns, int rows) {
   rows_ = rows;
   std::size_t i = 0;
   for_each_sample(columns, rows, [&](int column, int row) {
-    packet_.u[i] = static_cast<float>(column - kEdge / 2);
-    packet_.v[i] = static_cast<float>(row - kEdge / 2);
+    packet_.u[i] = static_cast<float>(column - kColumns / 2);
+    packet_.v[i] = static_cast<float>(row - kRows / 2);
     sample_[i++] = {static_cast<std::uint8_t>(column), static_cast<std::uint8_t>(row)};
   });
   packet_.size = static_cast<int>(i);

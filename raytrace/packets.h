@@ -16,7 +16,7 @@
 namespace sidelight::raytrace {
 
 struct RayPacket {
-  static constexpr int kGroup = 16, kGroups = 16, kCapacity = kGroup * kGroups;
+  static constexpr int kGroup = 16, kGroups = 64, kCapacity = kGroup * kGroups;
   template <class T>
   using PerRay = std::array<T, static_cast<std::size_t>(kCapacity)>;
   template <class T>
