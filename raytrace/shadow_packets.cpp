@@ -137,7 +137,7 @@ bool ShadowPackets::find_places_along(int face, bool all) {
     places_.per_depth[size] = static_cast<float>(per_depth);
     places_.number[size] = static_cast<std::uint32_t>(i);
     places_.own[size] = static_cast<std::int32_t>(asked.own);
-    fit &= depth >= kLeastDepth && std::abs(u) <= kWide && std::abs(v) <= kWide;
+    fit &= (depth >= kLeastDepth) & (std::abs(u) <= kWide) & (std::abs(v) <= kWide);
     size += all || (face_of(p) == face && depth >= kLeastDepth);
   }
   places_.resize(size);
@@ -250,9 +250,10 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vecto
   start(packet_);
   packet_.budget.fill(kGroupWork);
   trace_packet(isa_, prepared_, packet_, counts);
+  for (std::size_t i = 0; i < size; ++i) dark[number_[i]] = packet_.primitive[i] >= 0;
   for (std::size_t i = 0; i < size; ++i)
-    dark[number_[i]] =
-        packet_.primitive[i] >= 0 || (packet_.budget[i / kGroup] < 0 && is_dark(number_[i], counts));
+    if (packet_.budget[i / kGroup] < 0 && packet_.primitive[i] < 0)
+      dark[number_[i]] = is_dark(number_[i], counts);
 }
 
 // Alone.

@@ -100,8 +100,8 @@ class Wave {
   bool stands_alone(Level& level, std::size_t ray, ObjectKind kind);
   void add_lights(const Level& level, RenderStats& stats);
   void find_shadows(std::size_t light, RenderStats& stats);
-  ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
-  std::size_t enclosing_solid(const Level& level, const HitBatch& batch, std::size_t i) const;
+  void find_queries(const Level& level);
+  void find_asking(std::size_t light, RenderStats& stats);
   void add_lights_of(HitBatch& batch) const;
   void sum_up(Level& level, bool eye);
   void send_secondary(Level& level, Level& next, RenderStats& stats);
@@ -139,7 +139,7 @@ class Wave {
   Enclosures enclosures_;
   Clearings clearings_;
   std::vector<ShadowQuery> queries_;    // of entry i of batch b: [b kCapacity + i]
-  std::vector<std::size_t> enclosing_;  // likewise: the solid around it, or Enclosures::kNone
+  std::vector<std::size_t> enclosing_;  // likewise: the solid around it, or Enclosures::kNone; empty where there is none
   std::vector<RayQuestion> questions_;
   std::vector<std::uint32_t> asking_;  // which ask a light, or are the rays of questions_
   std::vector<std::uint8_t> dark_;
