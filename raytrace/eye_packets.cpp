@@ -9,7 +9,8 @@
 namespace sidelight::raytrace {
 namespace {
 
-constexpr int kColumns = 32, kRows = 32, kBlock = 4;  // of a packet and, along both edges, of its groups, in samples
+constexpr int kColumns = 32, kRows = 32,
+              kBlock = 4;  // of a packet and, along both edges, of its groups, in samples
 
 // visit(column, row) of a packet's samples, block by block, so that a group's rays are close to each other.
 template <class Visit>

@@ -74,8 +74,7 @@ void test_set_up(RayPacket& p, const LeafSetup& s, Groups groups, const std::uin
 
 template <class F, class B, class D>
 void test_leaf(const Prepared& prepared, const PacketAxes& axes, const TriangleLeaves& leaves,
-               std::uint32_t first, std::uint32_t count, Groups groups, RayPacket& p,
-               SignCounts& counts) {
+               std::uint32_t first, std::uint32_t count, Groups groups, RayPacket& p, SignCounts& counts) {
   const std::uint32_t* primitives = &leaves.bvh.items[first];
   LeafSetup setup;
   if (!set_up_leaf<D>(p, axes, leaves.leaf(first), count, setup)) return;

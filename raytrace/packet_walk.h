@@ -102,10 +102,9 @@ BoxesSeen see_boxes(const BvhNode& node, const PacketBounds& bounds) {
 template <class F>
 Groups groups_within(const PacketBounds& bounds, const BoxesSeen& seen, std::size_t i, Groups groups) {
   return some_of<F>(groups, [&](std::size_t g) {
-    return mask_bits<F>(F(seen.low_u[i]) <= load<F>(&bounds.high_u[g]) &&
-                        F(seen.high_u[i]) >= load<F>(&bounds.low_u[g]) &&
-                        F(seen.low_v[i]) <= load<F>(&bounds.high_v[g]) &&
-                        F(seen.high_v[i]) >= load<F>(&bounds.low_v[g]));
+    return mask_bits<F>(
+        F(seen.low_u[i]) <= load<F>(&bounds.high_u[g]) && F(seen.high_u[i]) >= load<F>(&bounds.low_u[g]) &&
+        F(seen.low_v[i]) <= load<F>(&bounds.high_v[g]) && F(seen.high_v[i]) >= load<F>(&bounds.low_v[g]));
   });
 }
 

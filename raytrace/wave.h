@@ -138,10 +138,10 @@ class Wave {
   ShadowPackets shadow_packets_;
   Enclosures enclosures_;
   Clearings clearings_;
-  std::vector<ShadowQuery> queries_;    // of entry i of batch b: [b kCapacity + i]
+  ShadowQueries queries_;               // of entry i of batch b: [b kCapacity + i]
   std::vector<std::size_t> enclosing_;  // likewise: the solid around it, or Enclosures::kNone; empty where there is none
   std::vector<RayQuestion> questions_;
-  std::vector<std::uint32_t> asking_;  // which ask a light, or are the rays of questions_
+  std::vector<std::uint32_t> asking_;  // which are the rays of questions_
   std::vector<std::uint8_t> dark_;
   std::vector<Level> levels_;
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light of a level's hits: shadow rays light by light, and the sums.
+#include <algorithm>
 #include <bit>
 
 #include "raytrace/wave.h"
@@ -23,17 +24,20 @@ void Wave::find_queries(const Level& level) {
   // Not of eye rays, most of which travel in the open.
   const bool may_enclose = !level.rays.empty() && !prepared_.solids.empty();
   enclosing_.resize(may_enclose ? queries_.size() : 0);
-  for (std::size_t b = 0; b < used_; ++b) {
+  for (std::size_t b = 0, first = 0; b < used_; ++b, first += kCapacity) {
     const HitBatch& batch = batches_[b];
     const auto size = static_cast<std::size_t>(batch.size);
+    std::copy_n(batch.from[0].begin(), size, &queries_.x[first]);
+    std::copy_n(batch.from[1].begin(), size, &queries_.y[first]);
+    std::copy_n(batch.from[2].begin(), size, &queries_.z[first]);
     for (std::size_t i = 0; i < size; ++i)
-      queries_[b * kCapacity + i] = {get(batch.from, i), level.hits[batch.ray[i]].primitive};
+      queries_.own[first + i] = static_cast<std::int32_t>(level.hits[batch.ray[i]].primitive);
     for (std::size_t i = 0; i < size && batch.kind == ObjectKind::sphere; ++i)
       if (!is_entering(scene_, ray_of(level, batch.ray[i]), level.hits[batch.ray[i]], get(batch.facing, i)))
-        queries_[b * kCapacity + i].own = kNone;
+        queries_.own[first + i] = -1;
     for (std::size_t i = 0; i < size && may_enclose; ++i)
-      enclosing_[b * kCapacity + i] = enclosures_.around(
-          get(batch.from, i), level.rays[batch.ray[i]].path.media, level.alone[batch.ray[i]]);
+      enclosing_[first + i] = enclosures_.around(get(batch.from, i), level.rays[batch.ray[i]].path.media,
+                                                 level.alone[batch.ray[i]]);
   }
 }
 
@@ -42,45 +46,43 @@ void Wave::find_shadows(std::size_t light, RenderStats& stats) {
   const Light& source = scene_.lights[light];
   find_asking(light, stats);
   if (source.directional) {
-    dark_.clear();
-    for (const std::uint32_t hit : asking_)
-      dark_.push_back(blocker(prepared_, ray_to_light(queries_[hit].from, source), nullptr, stats.signs,
-                              kRayStart, Precision::exact, isa_)
-                          .found());
+    dark_.assign(queries_.size(), 0);
+    for (std::size_t i = 0; i < queries_.size(); ++i)
+      if (queries_.asks[i] != 0)
+        dark_[i] = blocker(prepared_, ray_to_light(queries_[i].from, source), nullptr, stats.signs, kRayStart,
+                           Precision::exact, isa_)
+                       .found();
   } else {
-    shadow_packets_.trace(source, queries_, asking_, dark_, stats.signs);
+    shadow_packets_.trace(source, queries_, dark_, stats.signs);
   }
-  std::size_t k = 0;
   for (std::size_t b = 0, first = 0; b < used_; ++b, first += ShadingBatch::kCapacity) {
     ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
-    for (; k < asking_.size() && asking_[k] < first + ShadingBatch::kCapacity; ++k)
-      state[asking_[k] - first] = dark_[k] != 0 ? LightTerms::kSelfShadowed : LightTerms::kAsk;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
+      state[i] = dark_[first + i] != 0 ? LightTerms::kSelfShadowed : state[i];
   }
 }
 
-// Which queries this light has to be asked for.
+// Which queries ask this light.
 void Wave::find_asking(std::size_t light, RenderStats& stats) {
-  asking_.resize(queries_.size());
-  std::size_t asking = 0;
   for (std::size_t b = 0, first = 0; b < used_; ++b, first += ShadingBatch::kCapacity) {
     ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
     const auto size = static_cast<std::size_t>(batches_[b].size);
-    unsigned asks = 0, shadowed = 0;
+    std::int32_t* asks = &queries_.asks[first];
+    unsigned asking = 0, shadowed = 0;
     for (std::size_t i = 0; i < size; ++i) {
-      asks += state[i] == LightTerms::kAsk;
+      asks[i] = state[i] == LightTerms::kAsk;
+      asking += static_cast<unsigned>(asks[i]);
       shadowed += state[i] == LightTerms::kSelfShadowed;
     }
-    stats.rays.shadow += asks;
+    std::fill(asks + size, asks + ShadingBatch::kCapacity, 0);
+    stats.rays.shadow += asking;
     stats.self_shadowed += shadowed;
-    for (std::size_t i = 0; i < size && asks > 0 && !enclosing_.empty(); ++i)
-      if (state[i] == LightTerms::kAsk && enclosures_.hide(enclosing_[first + i], light))
+    for (std::size_t i = 0; i < size && asking > 0 && !enclosing_.empty(); ++i)
+      if (asks[i] != 0 && enclosures_.hide(enclosing_[first + i], light)) {
+        asks[i] = 0;
         state[i] = LightTerms::kSelfShadowed;  // b_i = 0, as there
-    for (std::size_t i = 0; i < size && asks > 0; ++i) {
-      asking_[asking] = static_cast<std::uint32_t>(first + i);
-      asking += state[i] == LightTerms::kAsk;
-    }
+      }
   }
-  asking_.resize(asking);
 }
 
 // Masks, and not branches that nobody could predict.

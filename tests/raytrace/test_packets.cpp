@@ -160,14 +160,21 @@ Counts check_shadows(const Prepared& prepared, const Light& light, const std::ve
                      Isa isa) {
   Counts result;
   SignCounts counts;
-  std::vector<std::uint32_t> asking;
-  for (std::uint32_t i = 0; i < queries.size(); ++i)
-    if (faces_light(prepared.scene, queries[i], light)) asking.push_back(i);
+  raytrace::ShadowQueries asked;
+  asked.resize(queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    asked.set(i, queries[i]);
+    asked.asks[i] = faces_light(prepared.scene, queries[i], light);
+  }
   raytrace::ShadowPackets packets(prepared, isa);
   std::vector<std::uint8_t> dark;
-  packets.trace(light, queries, asking, dark, counts);
-  for (std::size_t i = 0; i < asking.size(); ++i) {
-    const Ray ray = raytrace::ray_to_light(queries[asking[i]].from, light);
+  packets.trace(light, asked, dark, counts);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (asked.asks[i] == 0) {
+      result.different += dark[i] != 0;
+      continue;
+    }
+    const Ray ray = raytrace::ray_to_light(queries[i].from, light);
     const bool expected = blocker(prepared, ray, &light.position, counts).found();
     ++result.asked;
     result.different += (dark[i] != 0) != expected;
