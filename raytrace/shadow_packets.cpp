@@ -11,14 +11,14 @@ namespace sidelight::raytrace {
 namespace {
 
 // Places are sorted where groups as they come have more than this times the area of all.
-constexpr double kApart = 1.5;
+constexpr float kApart = 1.5f;
 
 // What a group may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget,
 // that is about as much as they would do alone.
 constexpr int kGroupWork = 64;
 
 // Every second bit of eight.
-std::uint32_t spread(std::uint32_t x) {
+std::int32_t spread(std::int32_t x) {
   x = (x | x << 4) & 0x0f0f;
   x = (x | x << 2) & 0x3333;
   return (x | x << 1) & 0x5555;
@@ -102,11 +102,11 @@ ShadowPackets::Extent ShadowPackets::group_at(std::size_t first) const {
 }
 
 // The groups of the places as they stand, and their area.
-double ShadowPackets::find_groups() {
+float ShadowPackets::find_groups() {
   constexpr std::size_t kGroup = RayPacket::kGroup;
   groups_.clear();
   whole_ = Extent();
-  double filled = 0;
+  float filled = 0;
   for (std::size_t at = 0; at < places_.size(); at += kGroup) {
     groups_.push_back(group_at(at));
     whole_.grow(groups_.back());
@@ -115,25 +115,24 @@ double ShadowPackets::find_groups() {
   return filled;
 }
 
-// By Morton code, of about as many cells as there are places; in a cell they stay in order.
+// By Morton code, in cells of about four; in a cell they stay in order.
 void ShadowPackets::sort_places() {
   int bits = 2;
-  while (bits < 6 && places_.size() > std::size_t{1} << 2 * bits) ++bits;
-  const double width = std::max(whole_.width(), 0x1p-100);
-  const double scale = static_cast<double>((1 << bits) - 1) / width;
+  while (bits < 6 && places_.size() > std::size_t{4} << 2 * bits) ++bits;
+  const float scale = static_cast<float>((1 << bits) - 1) / std::max(whole_.width(), 0x1p-100f);
+  const auto cell_of = [scale](float place, float low) {
+    return static_cast<std::int32_t>(scale * (place - low));
+  };
+  keys_.resize(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    keys_[i] = spread(cell_of(places_.u[i], whole_.low_u)) | spread(cell_of(places_.v[i], whole_.low_v)) << 1;
   std::array<std::uint32_t, (1 << 12) + 1> start;
   std::fill_n(start.begin(), (std::size_t{1} << 2 * bits) + 1, 0u);
-  keys_.resize(places_.size());
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    keys_[i] = spread(static_cast<std::uint32_t>(scale * static_cast<double>(places_.u[i] - whole_.low_u))) |
-               spread(static_cast<std::uint32_t>(scale * static_cast<double>(places_.v[i] - whole_.low_v)))
-                   << 1;
-    ++start[keys_[i] + 1];
-  }
+  for (const std::int32_t key : keys_) ++start[static_cast<std::size_t>(key) + 1];
   for (std::size_t cell = 1; cell <= std::size_t{1} << 2 * bits; ++cell) start[cell] += start[cell - 1];
   sorted_.resize(places_.size());
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const std::size_t to = start[keys_[i]]++;
+    const std::size_t to = start[static_cast<std::size_t>(keys_[i])]++;
     sorted_.u[to] = places_.u[i];
     sorted_.v[to] = places_.v[i];
     sorted_.per_depth[to] = places_.per_depth[i];
@@ -178,7 +177,8 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vecto
   packet_.W[face_.axis] = face_.sign;
   packet_.distance = (1 + 0x1p-22) * packet_.length / static_cast<double>(extent.least_per_depth);
   // Places are rounded in double, at most kWide, and to float, from the face's middle and from the packet's.
-  packet_.place_error = 0x1p-49 * CubeFace::kWide + 0x1p-23 * (whole_.farthest() + extent.width());
+  packet_.place_error =
+      0x1p-49 * CubeFace::kWide + 0x1p-23 * static_cast<double>(whole_.farthest() + extent.width());
   // Rounding keeps the order, so that a group's least is that of its rays.
   packet_.extent_u = std::max(extent.high_u - middle_u, middle_u - extent.low_u);
   packet_.extent_v = std::max(extent.high_v - middle_v, middle_v - extent.low_v);

@@ -31,15 +31,15 @@ class ShadowPackets {
     float least_per_depth = low_u;
 
     void grow(const Extent& other);
-    double area() const { return static_cast<double>(high_u - low_u) * static_cast<double>(high_v - low_v); }
-    double width() const { return static_cast<double>(std::max(high_u - low_u, high_v - low_v)); }
-    double farthest() const {  // from the face's middle
-      return static_cast<double>(std::max(std::max(-low_u, high_u), std::max(-low_v, high_v)));
+    float area() const { return (high_u - low_u) * (high_v - low_v); }
+    float width() const { return std::max(high_u - low_u, high_v - low_v); }
+    float farthest() const {  // from the face's middle
+      return std::max(std::max(-low_u, high_u), std::max(-low_v, high_v));
     }
   };
 
   Extent group_at(std::size_t first) const;
-  double find_groups();
+  float find_groups();
   void trace_face(std::vector<std::uint8_t>& dark, SignCounts& counts);
   void sort_places();
   void trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark, SignCounts& counts);
@@ -54,7 +54,7 @@ class ShadowPackets {
   CubeFace face_;
   // Of one face, in the order of the queries and sorted.
   ShadowPlaces places_, sorted_;
-  std::vector<std::uint32_t> keys_;
+  std::vector<std::int32_t> keys_;
   std::vector<Extent> groups_;
   Extent whole_;                          // of all groups
   std::span<const std::int32_t> number_;  // of the packet's rays
