@@ -9,8 +9,10 @@
 namespace sidelight::raytrace {
 namespace {
 
-constexpr int kColumns = 32, kRows = 32,
-              kBlock = 4;  // of a packet and, along both edges, of its groups, in samples
+constexpr int kColumns = 32, kRows = 32;  // of a packet, in samples
+constexpr int kBlock = EyePackets::kRun;  // of its groups, along both edges
+static_assert(kColumns * kRows == RayPacket::kCapacity && kBlock * kBlock == RayPacket::kGroup &&
+              kColumns % kBlock == 0);
 
 // visit(column, row) of a packet's samples, block by block, so that a group's rays are close to each other.
 template <class Visit>
@@ -42,20 +44,18 @@ EyePackets::EyePackets(const Prepared& prepared, const Camera& camera, Isa isa)
 
 void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& hits,
                        std::vector<std::uint8_t>& alone, SignCounts& counts) {
-  const auto stride = static_cast<std::size_t>(columns);
-  hits.resize(stride * static_cast<std::size_t>(rows));
+  hits.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   alone.resize(hits.size());
+  std::size_t first = 0;
   for (int y = 0; y < rows; y += kRows)
     for (int x = 0; x < columns; x += kColumns) {
       load(X0 + x, Y0 + y, std::min(kColumns, columns - x), std::min(kRows, rows - y));
       trace_packet(isa_, prepared_, packet_, counts);
-      const std::size_t first = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(packet_.size); ++i) {
-        const std::size_t index = first + sample_[i].row * stride + sample_[i].column;
-        hits[index] = Hit();
-        hits[index].primitive = static_cast<std::uint32_t>(packet_.primitive[i]);
-        alone[index] = !packet_.asked[i];
-      }
+      const auto size = static_cast<std::size_t>(packet_.size);
+      for (std::size_t i = 0; i < size; ++i)
+        hits[first + i] = {0, static_cast<std::uint32_t>(packet_.primitive[i])};
+      for (std::size_t i = 0; i < size; ++i) alone[first + i] = !packet_.asked[i];
+      first += size;
     }
 }
 
@@ -76,7 +76,6 @@ void EyePackets::load(int X0, int Y0, int columns, int rows) {
   packet_.W = camera_.direction(X0 + kColumns / 2, Y0 + kRows / 2);
   packet_.w.fill(0);
   packet_.least_w.fill(0);
-  packet_.budget.fill(std::numeric_limits<std::int32_t>::max());
   start(packet_);
 }
 

@@ -192,7 +192,7 @@ void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& l
     Groups groups = groups_beyond<F>(p, top.depth, top.groups);
     if (groups == 0) continue;
     if (is_leaf) {
-      groups = spend<F>(p, groups, kLeafWork<Tree>);
+      if (p.any_hit) groups = spend<F>(p, groups, kLeafWork<Tree>);
       if (groups != 0) test_leaf<F, B, D>(prepared, axes, leaves, top.first, top.count, groups, p, counts);
     } else if (top.count > 0) {
       prefetch(leaves, top.first, top.count);

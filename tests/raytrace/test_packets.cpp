@@ -137,21 +137,21 @@ Counts check_eye(const Prepared& prepared, const Camera& camera, Isa isa) {
   std::vector<std::uint8_t> alone;
   for (const auto& [X0, Y0, columns, rows] : {std::array{0, 0, 32, 32}, {32, 0, 21, 32}, {3, 32, 50, 7}}) {
     packets.trace(X0, Y0, columns, rows, hits, alone, counts);
-    for (int y = 0; y < rows; ++y)
-      for (int x = 0; x < columns; ++x) {
-        const auto i = static_cast<std::size_t>(y * columns + x);
-        const Ray ray{camera.eye, camera.direction(X0 + x, Y0 + y)};
-        const Hit expected = nearest(prepared, ray, kRayStart, counts);
-        ++result.asked;
-        result.different += hits[i].primitive != expected.primitive;
-        result.positive += expected.found();
-        if (!expected.found() || !alone[i] || expected.t >= 16 * packets.reach() / packets.ray_length())
-          continue;
-        const Place at = locate(prepared.scene, ray, expected, counts);
-        result.different +=
-            leaving_point(prepared, ray, expected, at, counts) != at.point + at.clearance * at.facing;
-        ++result.alone;
-      }
+    const std::vector<std::uint32_t> order = raytrace::EyePackets::order(columns, rows);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const auto sample = static_cast<int>(order[i]);
+      const Ray ray{camera.eye, camera.direction(X0 + sample % columns, Y0 + sample / columns)};
+      const Hit expected = nearest(prepared, ray, kRayStart, counts);
+      ++result.asked;
+      result.different += hits[i].primitive != expected.primitive;
+      result.positive += expected.found();
+      if (!expected.found() || !alone[i] || expected.t >= 16 * packets.reach() / packets.ray_length())
+        continue;
+      const Place at = locate(prepared.scene, ray, expected, counts);
+      result.different +=
+          leaving_point(prepared, ray, expected, at, counts) != at.point + at.clearance * at.facing;
+      ++result.alone;
+    }
   }
   return result;
 }
