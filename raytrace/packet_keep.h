@@ -31,10 +31,10 @@ inline Groups all_groups(const RayPacket& p) { return ~Groups{0} >> (64 - p.grou
 // Those of them of which ask(g), which tells bits of some side by side from g on, says so.
 template <class F, class Ask>
 Groups some_of(Groups groups, const Ask& ask) {
-  constexpr int kLanesOfF = kLanes<F>;
+  constexpr Groups kSideBySide = (Groups{1} << kLanes<F>)-1;
   Groups out = 0;
   for (std::size_t g = 0; g < RayPacket::kGroups; g += kLanes<F>)
-    if ((groups >> g & ((Groups{1} << kLanesOfF) - 1)) != 0) out |= Groups{ask(g)} << g;
+    if ((groups >> g & kSideBySide) != 0) out |= Groups{ask(g)} << g;
   return out & groups;
 }
 

@@ -54,6 +54,7 @@ void find_squares(RayPacket& p) {
 
 template <class F, class B, class D>
 void meet_all(const Prepared& prepared, RayPacket& p, SignCounts& counts) {
+  if (p.groups == 0) return;
   const PacketAxes axes = packet_axes(p);
   for (const std::uint32_t plane : prepared.planes) test_plane<F, B>(prepared, p, plane, counts);
   walk_packet<F, B, D>(prepared, axes, prepared.triangles, p, counts);

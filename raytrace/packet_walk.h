@@ -180,7 +180,7 @@ template <class F, class B, class D, class Tree>
 void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& leaves, RayPacket& p,
                  SignCounts& counts) {
   constexpr std::size_t kAhead = 8;
-  if (leaves.bvh.nodes.empty() || p.groups == 0) return;
+  if (leaves.bvh.nodes.empty()) return;
   const PacketBounds bounds = packet_bounds(p, axes, leaves.bvh);
   PacketStack stack;
   stack.entry[stack.size++] = {0, 0, 0, all_groups(p)};

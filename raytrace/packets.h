@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packets: up to 256 rays with a common origin, whose directions are d = W + u U + v V. Relative to the origin a
+// Packets: up to 1024 rays with a common origin, whose directions are d = W + u U + v V. Relative to the origin a
 // triangle is three affine edge functions of (u, v) and 1/t is a fourth (common/model/ray_sheet.h), so that 16 rays are
 // tested in a few operations, in float. Eye rays are such packets, and so are shadow rays seen from a point light.
 //
