@@ -9,7 +9,10 @@
 namespace sidelight::raytrace {
 namespace {
 
-constexpr int kEdge = 16, kBlock = 4;  // of a packet and of its groups, in samples
+constexpr int kColumns = 32, kRows = 32;  // of a packet, in samples
+constexpr int kBlock = EyePackets::kRun;  // of its groups, along both edges
+static_assert(kColumns * kRows == RayPacket::kCapacity && kBlock * kBlock == RayPacket::kGroup &&
+              kColumns % kBlock == 0);
 
 // visit(column, row) of a packet's samples, block by block, so that a group's rays are close to each other.
 template <class Visit>
@@ -33,35 +36,34 @@ EyePackets::EyePackets(const Prepared& prepared, const Camera& camera, Isa isa)
   // place.h: what is near lies within 10 (step + 32 u reach) of the place, up to 16 reach away: below 2^-40 reach.
   packet_.near_error = 0x1p-39;
   packet_.lattice = true;
-  packet_.extent_u = packet_.extent_v = kEdge / 2;
+  packet_.extent_u = kColumns / 2;
+  packet_.extent_v = kRows / 2;
   packet_.ask = ask;
   packet_.context = this;
 }
 
 void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& hits,
                        std::vector<std::uint8_t>& alone, SignCounts& counts) {
-  const auto stride = static_cast<std::size_t>(columns);
-  hits.resize(stride * static_cast<std::size_t>(rows));
+  hits.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   alone.resize(hits.size());
-  for (int y = 0; y < rows; y += kEdge)
-    for (int x = 0; x < columns; x += kEdge) {
-      load(X0 + x, Y0 + y, std::min(kEdge, columns - x), std::min(kEdge, rows - y));
+  std::size_t first = 0;
+  for (int y = 0; y < rows; y += kRows)
+    for (int x = 0; x < columns; x += kColumns) {
+      load(X0 + x, Y0 + y, std::min(kColumns, columns - x), std::min(kRows, rows - y));
       trace_packet(isa_, prepared_, packet_, counts);
-      const std::size_t first = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(packet_.size); ++i) {
-        const std::size_t index = first + sample_[i].row * stride + sample_[i].column;
-        hits[index] = Hit();
-        hits[index].primitive = static_cast<std::uint32_t>(packet_.primitive[i]);
-        alone[index] = !packet_.asked[i];
-      }
+      const auto size = static_cast<std::size_t>(packet_.size);
+      for (std::size_t i = 0; i < size; ++i)
+        hits[first + i] = {0, static_cast<std::uint32_t>(packet_.primitive[i])};
+      for (std::size_t i = 0; i < size; ++i) alone[first + i] = !packet_.asked[i];
+      first += size;
     }
 }
 
 std::vector<std::uint32_t> EyePackets::order(int columns, int rows) {
   std::vector<std::uint32_t> order;
-  for (int y = 0; y < rows; y += kEdge)
-    for (int x = 0; x < columns; x += kEdge)
-      for_each_sample(std::min(kEdge, columns - x), std::min(kEdge, rows - y), [&](int column, int row) {
+  for (int y = 0; y < rows; y += kRows)
+    for (int x = 0; x < columns; x += kColumns)
+      for_each_sample(std::min(kColumns, columns - x), std::min(kRows, rows - y), [&](int column, int row) {
         order.push_back(static_cast<std::uint32_t>((y + row) * columns + x + column));
       });
   return order;
@@ -71,10 +73,9 @@ void EyePackets::load(int X0, int Y0, int columns, int rows) {
   X0_ = X0;
   Y0_ = Y0;
   if (columns != columns_ || rows != rows_) place(columns, rows);
-  packet_.W = camera_.direction(X0 + kEdge / 2, Y0 + kEdge / 2);
+  packet_.W = camera_.direction(X0 + kColumns / 2, Y0 + kRows / 2);
   packet_.w.fill(0);
   packet_.least_w.fill(0);
-  packet_.budget.fill(std::numeric_limits<std::int32_t>::max());
   start(packet_);
 }
 
@@ -84,8 +85,8 @@ void EyePackets::place(int columns, int rows) {
   rows_ = rows;
   std::size_t i = 0;
   for_each_sample(columns, rows, [&](int column, int row) {
-    packet_.u[i] = static_cast<float>(column - kEdge / 2);
-    packet_.v[i] = static_cast<float>(row - kEdge / 2);
+    packet_.u[i] = static_cast<float>(column - kColumns / 2);
+    packet_.v[i] = static_cast<float>(row - kRows / 2);
     sample_[i++] = {static_cast<std::uint8_t>(column), static_cast<std::uint8_t>(row)};
   });
   packet_.size = static_cast<int>(i);

@@ -14,12 +14,14 @@ class EyePackets {
  public:
   EyePackets(const Prepared& prepared, const Camera& camera, Isa isa);
 
-  // Of the samples [X0, X0 + columns) x [Y0, Y0 + rows), row by row: the primitive that nearest() finds, its depth left
+  // Of the samples [X0, X0 + columns) x [Y0, Y0 + rows), in this class's order(): the primitive that nearest() finds, its depth left
   // out; and whether nothing else stands near to where the ray meets it (place.h, stands_near()), for certain, as long as
   // that is within 16 reach().
   void trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& hits, std::vector<std::uint8_t>& alone,
              SignCounts& counts);
-  // The numbers of that many samples in the order of the packets' rays: neighbours stay together.
+  // The order of the packets' rays, neighbours together, of that many samples: their numbers, counted row by row.
+  // So many of a row follow each other where `columns` is a multiple of them.
+  static constexpr int kRun = 4;
   static std::vector<std::uint32_t> order(int columns, int rows);
   double reach() const { return packet_.reach; }
   double ray_length() const { return packet_.length; }  // at least |d| of any ray

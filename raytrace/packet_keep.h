@@ -21,6 +21,23 @@ F l1(const Vec3<F>& v) {
   return (lane_abs<F>(v.x) + lane_abs<F>(v.y)) + lane_abs<F>(v.z);
 }
 
+// Groups of a packet, as bits.
+using Groups = std::uint64_t;
+static_assert(RayPacket::kGroups <= 64);
+
+// All that hold rays; p has some.
+inline Groups all_groups(const RayPacket& p) { return ~Groups{0} >> (64 - p.groups); }
+
+// Those of them of which ask(g), which tells bits of some side by side from g on, says so.
+template <class F, class Ask>
+Groups some_of(Groups groups, const Ask& ask) {
+  constexpr Groups kSideBySide = (Groups{1} << kLanes<F>)-1;
+  Groups out = 0;
+  for (std::size_t g = 0; g < RayPacket::kGroups; g += kLanes<F>)
+    if ((groups >> g & kSideBySide) != 0) out |= Groups{ask(g)} << g;
+  return out & groups;
+}
+
 template <class F>
 void ask_lanes(RayPacket& p, std::size_t first, std::uint32_t bits, std::uint32_t primitive,
                SignCounts& counts) {
@@ -75,7 +92,7 @@ float least_of_group(const RayPacket& p, std::size_t group) {
 
 // After something was kept in these groups.
 template <class F>
-void update_least(RayPacket& p, std::uint32_t groups) {
+void update_least(RayPacket& p, Groups groups) {
   for (; groups != 0; groups &= groups - 1) {
     const auto g = static_cast<std::size_t>(std::countr_zero(groups));
     p.least_w[g] = least_of_group<F>(p, g);
@@ -100,21 +117,23 @@ inline void hide_what_casts_none(const Prepared& prepared, const RayPacket& p,
     if (casts_none(prepared, p, primitives[i])) row[i] = hidden;
 }
 
-// An item, and rays from this one on: i << 8 | ray.
+// An item, and rays from this one on: i * kCapacity + ray.
 using Pairs = std::array<std::int32_t, Bvh::kMaxLeaf * RayPacket::kCapacity + RayPacket::kGroups>;
 struct ItemAndRay {
   std::size_t i, ray;
 };
 inline ItemAndRay item_and_ray(std::int32_t pair) {
-  return {static_cast<std::size_t>(pair >> 8), static_cast<std::size_t>(pair & 255)};
+  const auto number = static_cast<std::size_t>(pair), capacity = std::size_t{RayPacket::kCapacity};
+  return {number / capacity, number % capacity};
 }
 
 // Adds group g with each item, from `lane` on, that it may meet. Returns how many.
 template <class B>
 std::size_t add_pairs(const Mask<B>& met, std::size_t lane, std::size_t g, std::int32_t* pairs) {
   using I = Ints<B>;
-  const I items = generate<I>([](int k) { return k << 8; });
-  return store_some<B>(met, items + I(static_cast<std::int32_t>(lane << 8 | g * RayPacket::kGroup)), pairs);
+  const I items = generate<I>([](int k) { return k * RayPacket::kCapacity; });
+  const std::size_t first = lane * RayPacket::kCapacity + g * RayPacket::kGroup;
+  return store_some<B>(met, items + I(static_cast<std::int32_t>(first)), pairs);
 }
 
 }  // namespace sidelight::raytrace

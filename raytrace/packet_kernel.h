@@ -38,7 +38,7 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
   s.low_u.fill(kInfinity);
   s.low_u[0] = s.low_v[0] = -kFar;
   s.high_u[0] = s.high_v[0] = kFar;
-  test_set_up<F, B>(p, s, (1u << p.groups) - 1, &primitive, counts);
+  test_set_up<F, B>(p, s, all_groups(p), &primitive, counts);
 }
 
 template <class D>
@@ -54,6 +54,7 @@ void find_squares(RayPacket& p) {
 
 template <class F, class B, class D>
 void meet_all(const Prepared& prepared, RayPacket& p, SignCounts& counts) {
+  if (p.groups == 0) return;
   const PacketAxes axes = packet_axes(p);
   for (const std::uint32_t plane : prepared.planes) test_plane<F, B>(prepared, p, plane, counts);
   walk_packet<F, B, D>(prepared, axes, prepared.triangles, p, counts);

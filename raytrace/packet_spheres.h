@@ -122,7 +122,7 @@ bool test_sphere(RayPacket& p, const SphereSetup& s, std::size_t i, std::size_t 
 
 template <class F, class B, class D>
 void test_leaf(const Prepared& prepared, const PacketAxes&, const SphereLeaves& leaves, std::uint32_t first,
-               std::uint32_t count, std::uint32_t groups, RayPacket& p, SignCounts& counts) {
+               std::uint32_t count, Groups groups, RayPacket& p, SignCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
   const std::uint32_t* primitives = &leaves.bvh.items[first];
   SphereSetup setup;
@@ -135,13 +135,13 @@ void test_leaf(const Prepared& prepared, const PacketAxes&, const SphereLeaves& 
   std::size_t size = 0;
   for (; groups != 0; groups &= groups - 1)
     size += add_spheres_met<B>(p, setup, static_cast<std::size_t>(std::countr_zero(groups)), &near[size]);
-  std::uint32_t changed = 0;
+  Groups changed = 0;
   for (std::size_t k = 0; k < size; ++k) {
     const auto [i, group] = item_and_ray(near[k]);
     bool any_changed = false;
     for (std::size_t ray = group; ray < group + kGroup; ray += kLanes<F>)
       any_changed |= test_sphere<F>(p, setup, i, ray, primitives[i], counts);
-    if (any_changed) changed |= 1u << group / kGroup;
+    if (any_changed) changed |= Groups{1} << group / kGroup;
   }
   counts.tests += kGroup * size;
   if (changed != 0) update_least<F>(p, changed);

@@ -44,7 +44,7 @@ F least_edge(const RayPacket& p, const LeafSetup& s, std::size_t i, std::size_t 
 // met in which; which rays of them; and what these keep. Step by step, so that hardly a branch hangs on a result that has
 // just been asked for.
 template <class F, class B>
-void test_set_up(RayPacket& p, const LeafSetup& s, std::uint32_t groups, const std::uint32_t* primitives,
+void test_set_up(RayPacket& p, const LeafSetup& s, Groups groups, const std::uint32_t* primitives,
                  SignCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
   Pairs near, met;
@@ -58,14 +58,14 @@ void test_set_up(RayPacket& p, const LeafSetup& s, std::uint32_t groups, const s
       met[met_size] = pair;
       met_size += any<F>(least_edge<F>(p, s, i, first) >= F(-s.doubt[i]));
     }
-  std::uint32_t changed = 0;
+  Groups changed = 0;
   for (std::size_t k = 0; k < met_size; ++k) {
     const auto [i, first] = item_and_ray(met[k]);
     const F e = least_edge<F>(p, s, i, first), doubt(s.doubt[i]);
     const F w =
         mul_add(F(s.wx[i]), load<F>(&p.u[first]), mul_add(F(s.wy[i]), load<F>(&p.v[first]), F(s.wc[i])));
     if (keep_nearer<F>(p, first, primitives[i], e > doubt, e >= -doubt, w, F(s.w_error[i]), counts))
-      changed |= 1u << first / kGroup;
+      changed |= Groups{1} << first / kGroup;
   }
   counts.tests += kGroup * near_size;
   counts.filtered += 3 * kGroup * near_size;
@@ -74,8 +74,7 @@ void test_set_up(RayPacket& p, const LeafSetup& s, std::uint32_t groups, const s
 
 template <class F, class B, class D>
 void test_leaf(const Prepared& prepared, const PacketAxes& axes, const TriangleLeaves& leaves,
-               std::uint32_t first, std::uint32_t count, std::uint32_t groups, RayPacket& p,
-               SignCounts& counts) {
+               std::uint32_t first, std::uint32_t count, Groups groups, RayPacket& p, SignCounts& counts) {
   const std::uint32_t* primitives = &leaves.bvh.items[first];
   LeafSetup setup;
   if (!set_up_leaf<D>(p, axes, leaves.leaf(first), count, setup)) return;

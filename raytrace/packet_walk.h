@@ -98,26 +98,22 @@ BoxesSeen see_boxes(const BvhNode& node, const PacketBounds& bounds) {
   return seen;
 }
 
-// The groups that box i may hold rays of, as bits.
+// Those of the groups that box i may hold rays of.
 template <class F>
-std::uint32_t groups_within(const PacketBounds& bounds, const BoxesSeen& seen, std::size_t i) {
-  std::uint32_t bits = 0;
-  for (std::size_t g = 0; g < RayPacket::kGroups; g += kLanes<F>) {
-    const Mask<F> met =
+Groups groups_within(const PacketBounds& bounds, const BoxesSeen& seen, std::size_t i, Groups groups) {
+  return some_of<F>(groups, [&](std::size_t g) {
+    return mask_bits<F>(
         F(seen.low_u[i]) <= load<F>(&bounds.high_u[g]) && F(seen.high_u[i]) >= load<F>(&bounds.low_u[g]) &&
-        F(seen.low_v[i]) <= load<F>(&bounds.high_v[g]) && F(seen.high_v[i]) >= load<F>(&bounds.low_v[g]);
-    bits |= mask_bits<F>(met) << g;
-  }
-  return bits;
+        F(seen.low_v[i]) <= load<F>(&bounds.high_v[g]) && F(seen.high_v[i]) >= load<F>(&bounds.low_v[g]));
+  });
 }
 
 // Those that have rays which are not done and do not surely keep something nearer than this.
 template <class F>
-std::uint32_t groups_beyond(const RayPacket& p, float depth) {
-  std::uint32_t bits = 0;
-  for (std::size_t g = 0; g < static_cast<std::size_t>(p.groups); g += kLanes<F>)
-    bits |= mask_bits<F>(F(depth) * load<F>(&p.least_w[g]) <= F(1 + 0x1p-12f)) << g;
-  return bits;
+Groups groups_beyond(const RayPacket& p, float depth, Groups groups) {
+  return some_of<F>(groups, [&](std::size_t g) {
+    return mask_bits<F>(F(depth) * load<F>(&p.least_w[g]) <= F(1 + 0x1p-12f));
+  });
 }
 
 // All lines of a node, or of a leaf: they will be asked for soon, and where the tree is large, they are far away.
@@ -136,17 +132,16 @@ constexpr std::int32_t kLeafWork = std::is_same_v<Tree, SphereLeaves> ? 4 : 1;
 
 // Takes a leaf off the budgets of these groups. Returns those that can afford it; the others are done.
 template <class F>
-std::uint32_t spend(RayPacket& p, std::uint32_t groups, std::int32_t work) {
+Groups spend(RayPacket& p, Groups groups, std::int32_t work) {
   using I = Ints<F>;
-  std::uint32_t over = 0;
-  for (std::size_t g = 0; g < RayPacket::kGroups; g += kLanes<F>) {
-    const I lanes = generate<I>([](int lane) { return lane; }) + I(static_cast<std::int32_t>(g));
-    const I bit = (I(static_cast<std::int32_t>(groups)) >> lanes) & I(1);
+  const I lanes = generate<I>([](int lane) { return lane; });
+  const Groups over = some_of<F>(groups, [&](std::size_t g) {
+    const I bit = (I(static_cast<std::int32_t>(groups >> g)) >> lanes) & I(1);
     const I budget = load<I>(&p.budget[g]) - bit * I(work);
     store(budget, &p.budget[g]);
-    over |= mask_bits<I>(budget < I(0)) << g;
-  }
-  for (std::uint32_t bits = over; bits != 0; bits &= bits - 1)
+    return mask_bits<I>(budget < I(0));
+  });
+  for (Groups bits = over; bits != 0; bits &= bits - 1)
     p.least_w[static_cast<std::size_t>(std::countr_zero(bits))] = std::numeric_limits<float>::infinity();
   return groups & ~over;
 }
@@ -154,8 +149,8 @@ std::uint32_t spend(RayPacket& p, std::uint32_t groups, std::int32_t work) {
 // What is still to be visited: nodes and leaves, and the groups that may meet something there.
 struct PacketEntry {
   float depth;
-  std::uint32_t first;
-  std::uint16_t count, groups;
+  std::uint32_t first, count;
+  Groups groups;
 };
 struct PacketStack {
   std::array<PacketEntry, Bvh::kMaxDepth*(BvhNode::kWidth - 1) + 1> entry;
@@ -164,16 +159,15 @@ struct PacketStack {
 
 // Adds what these groups may meet of a node's children, the nearest last.
 template <class F, class B, class Tree>
-void push_children(const Tree& leaves, const BvhNode& node, const PacketBounds& bounds, std::uint32_t groups,
+void push_children(const Tree& leaves, const BvhNode& node, const PacketBounds& bounds, Groups groups,
                    PacketStack& stack) {
   const BoxesSeen seen = see_boxes<B>(node, bounds);
   const std::size_t base = stack.size;
   for (std::uint32_t bits = seen.met; bits != 0; bits &= bits - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-    const std::uint32_t within = groups & groups_within<F>(bounds, seen, i);
+    const Groups within = groups_within<F>(bounds, seen, i, groups);
     if (within == 0) continue;
-    const PacketEntry child{seen.depth[i], node.first[i], static_cast<std::uint16_t>(node.count[i]),
-                            static_cast<std::uint16_t>(within)};
+    const PacketEntry child{seen.depth[i], node.first[i], node.count[i], within};
     if (child.count == 0) prefetch(leaves, child.first, 0);
     std::size_t at = stack.size++;
     for (; at > base && stack.entry[at - 1].depth <= child.depth; --at) stack.entry[at] = stack.entry[at - 1];
@@ -186,19 +180,19 @@ template <class F, class B, class D, class Tree>
 void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& leaves, RayPacket& p,
                  SignCounts& counts) {
   constexpr std::size_t kAhead = 8;
-  if (leaves.bvh.nodes.empty() || p.groups == 0) return;
+  if (leaves.bvh.nodes.empty()) return;
   const PacketBounds bounds = packet_bounds(p, axes, leaves.bvh);
   PacketStack stack;
-  stack.entry[stack.size++] = {0, 0, 0, static_cast<std::uint16_t>((1u << p.groups) - 1)};
+  stack.entry[stack.size++] = {0, 0, 0, all_groups(p)};
   std::array<PacketEntry, kAhead> waiting;
   std::size_t arrived = 0, done = 0;
   while (stack.size > 0 || done < arrived) {
     const bool is_leaf = stack.size == 0 || arrived - done == kAhead;
     const PacketEntry top = is_leaf ? waiting[done++ % kAhead] : stack.entry[--stack.size];
-    std::uint32_t groups = top.groups & groups_beyond<F>(p, top.depth);
+    Groups groups = groups_beyond<F>(p, top.depth, top.groups);
     if (groups == 0) continue;
     if (is_leaf) {
-      groups = spend<F>(p, groups, kLeafWork<Tree>);
+      if (p.any_hit) groups = spend<F>(p, groups, kLeafWork<Tree>);
       if (groups != 0) test_leaf<F, B, D>(prepared, axes, leaves, top.first, top.count, groups, p, counts);
     } else if (top.count > 0) {
       prefetch(leaves, top.first, top.count);

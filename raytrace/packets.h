@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packets: up to 256 rays with a common origin, whose directions are d = W + u U + v V. Relative to the origin a
+// Packets: up to 1024 rays with a common origin, whose directions are d = W + u U + v V. Relative to the origin a
 // triangle is three affine edge functions of (u, v) and 1/t is a fourth (common/model/ray_sheet.h), so that 16 rays are
 // tested in a few operations, in float. Eye rays are such packets, and so are shadow rays seen from a point light.
 //
@@ -16,7 +16,7 @@
 namespace sidelight::raytrace {
 
 struct RayPacket {
-  static constexpr int kGroup = 16, kGroups = 16, kCapacity = kGroup * kGroups;
+  static constexpr int kGroup = 16, kGroups = 64, kCapacity = kGroup * kGroups;
   template <class T>
   using PerRay = std::array<T, static_cast<std::size_t>(kCapacity)>;
   template <class T>
@@ -38,7 +38,7 @@ struct RayPacket {
   alignas(64) PerRay<std::int32_t> own;  // of shadow rays: the flat surface that asks, or -1
   bool any_hit = false;                  // shadow rays: the first one will do
   bool all_cast = true;                  // whether every material casts shadows
-  // Work left of each group (packet_walk.h): where it falls below 0 its rays are left as they are by then.
+  // Work left of each group of shadow rays (packet_walk.h): where it falls below 0 they are left as they are by then.
   alignas(64) PerGroup<std::int32_t> budget;
   // Whether anything at all was doubtful. If not, nothing but what is kept comes near to where the ray ends.
   PerRay<bool> asked{};

@@ -11,30 +11,17 @@ namespace sidelight::raytrace {
 namespace {
 
 // Places are sorted where groups as they come have more than this times the area of all.
-constexpr double kApart = 1.5;
+constexpr float kApart = 1.5f;
 
 // What a group may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget,
 // that is about as much as they would do alone.
 constexpr int kGroupWork = 64;
 
-// Points nearer to the light than this have no direction from it that a double could hold.
-constexpr double kLeastDepth = 1e-100;
-
-// How far beyond its edges a face is used where that spares a second one.
-constexpr double kWide = 2;
-
 // Every second bit of eight.
-std::uint32_t spread(std::uint32_t x) {
+std::int32_t spread(std::int32_t x) {
   x = (x | x << 4) & 0x0f0f;
   x = (x | x << 2) & 0x3333;
   return (x | x << 1) & 0x5555;
-}
-
-// Of the cube around the light: +x, -x, +y, ...
-int face_of(const glm::dvec3& p) {
-  const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
-  const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
-  return 2 * axis + (p[axis] < 0 ? 1 : 0);
 }
 
 // The smaller (greater) of two; as std::min() has it, but something that is done to many at once.
@@ -63,14 +50,6 @@ T of_group(const T* x, const Pick& pick) {
 
 }  // namespace
 
-void ShadowPackets::Places::resize(std::size_t size) {
-  u.resize(size);
-  v.resize(size);
-  per_depth.resize(size);
-  number.resize(size);
-  own.resize(size);
-}
-
 void ShadowPackets::Extent::grow(const Extent& other) {
   low_u = std::min(low_u, other.low_u);
   high_u = std::max(high_u, other.high_u);
@@ -81,73 +60,38 @@ void ShadowPackets::Extent::grow(const Extent& other) {
 
 ShadowPackets::ShadowPackets(const Prepared& prepared, Isa isa) : prepared_(prepared), isa_(isa) {
   packet_.any_hit = true;
-  packet_.length = 1 + 2 * kWide;  // |axis| + |u U| + |v V|
+  packet_.length = 1 + 2 * CubeFace::kWide;  // |axis| + |u U| + |v V|
   packet_.all_cast = std::all_of(prepared.scene.materials.begin(), prepared.scene.materials.end(),
                                  [](const Material& material) { return material.casts_shadow; });
   packet_.ask = ask;
   packet_.context = this;
 }
 
-void ShadowPackets::trace(const Light& light, std::span<const ShadowQuery> queries,
-                          std::span<const std::uint32_t> asking, std::vector<std::uint8_t>& dark,
+void ShadowPackets::trace(const Light& light, const ShadowQueries& queries, std::vector<std::uint8_t>& dark,
                           SignCounts& counts) {
   light_ = &light;
-  queries_ = queries;
-  asking_ = asking;
-  dark.assign(asking.size(), 0);
+  queries_ = &queries;
+  dark.assign(queries.size(), 0);
   packet_.origin = light.position;
   packet_.reach = prepared_.reach_from(light.position);
-  if (asking.empty()) return;
+  const auto asks = std::find_if(queries.asks.begin(), queries.asks.end(), [](auto ask) { return ask != 0; });
+  if (asks == queries.asks.end()) return;
   // Most often one face will do, though some of the places lie beyond its edges.
-  const int first = face_of(query(0).from - light.position);
-  if (find_places(first, true)) return trace_face(first, dark, counts);
+  face_ = face_towards(queries[static_cast<std::size_t>(asks - queries.asks.begin())].from, light.position);
+  if (find_places(isa_, queries, face_, places_)) return trace_face(dark, counts);
   for (int face = 0; face < 6; ++face) {
-    find_places(face, false);
-    trace_face(face, dark, counts);
+    face_ = {face / 2, face % 2 == 0 ? 1.0 : -1.0, light.position};
+    find_places_behind(isa_, queries, face_, places_);
+    trace_face(dark, counts);
   }
-  for (std::size_t i = 0; i < asking.size(); ++i)
-    if (max_norm(query(i).from - light.position) < kLeastDepth) dark[i] = is_dark(i, counts);
-}
-
-// Of all queries, false if some cannot be seen through this face; or of those whose face it is.
-bool ShadowPackets::find_places(int face, bool all) {
-  switch (face / 2) {
-    case 0:
-      return find_places_along<0>(face, all);
-    case 1:
-      return find_places_along<1>(face, all);
-    default:
-      return find_places_along<2>(face, all);
-  }
-}
-
-template <int kAxis>
-bool ShadowPackets::find_places_along(int face, bool all) {
-  const double sign = face % 2 == 0 ? 1 : -1;
-  places_.resize(asking_.size());
-  std::size_t size = 0;
-  bool fit = true;
-  for (std::size_t i = 0; i < asking_.size(); ++i) {
-    const ShadowQuery& asked = query(i);
-    const glm::dvec3 p = asked.from - light_->position;
-    const double depth = sign * p[kAxis], per_depth = 1 / depth;
-    const double u = per_depth * p[(kAxis + 1) % 3], v = per_depth * p[(kAxis + 2) % 3];
-    places_.u[size] = u;
-    places_.v[size] = v;
-    places_.per_depth[size] = static_cast<float>(per_depth);
-    places_.number[size] = static_cast<std::uint32_t>(i);
-    places_.own[size] = static_cast<std::int32_t>(asked.own);
-    fit &= depth >= kLeastDepth && std::abs(u) <= kWide && std::abs(v) <= kWide;
-    size += all || (face_of(p) == face && depth >= kLeastDepth);
-  }
-  places_.resize(size);
-  return fit;
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    if (queries.asks[i] != 0 && max_norm(queries[i].from - light.position) < CubeFace::kLeastDepth)
+      dark[i] = is_dark(i, counts);
 }
 
 // Of up to sixteen places from this one on.
 ShadowPackets::Extent ShadowPackets::group_at(std::size_t first) const {
-  const double *u = &places_.u[first], *v = &places_.v[first];
-  const float* per_depth = &places_.per_depth[first];
+  const float *u = &places_.u[first], *v = &places_.v[first], *per_depth = &places_.per_depth[first];
   if (first + RayPacket::kGroup <= places_.size())
     return {of_group(u, Less()), of_group(u, More()), of_group(v, Less()), of_group(v, More()),
             of_group(per_depth, Less())};
@@ -158,11 +102,11 @@ ShadowPackets::Extent ShadowPackets::group_at(std::size_t first) const {
 }
 
 // The groups of the places as they stand, and their area.
-double ShadowPackets::find_groups() {
+float ShadowPackets::find_groups() {
   constexpr std::size_t kGroup = RayPacket::kGroup;
   groups_.clear();
   whole_ = Extent();
-  double filled = 0;
+  float filled = 0;
   for (std::size_t at = 0; at < places_.size(); at += kGroup) {
     groups_.push_back(group_at(at));
     whole_.grow(groups_.back());
@@ -171,24 +115,24 @@ double ShadowPackets::find_groups() {
   return filled;
 }
 
-// By Morton code, of about as many cells as there are places; in a cell they stay in order.
+// By Morton code, in cells of about four; in a cell they stay in order.
 void ShadowPackets::sort_places() {
   int bits = 2;
-  while (bits < 6 && places_.size() > std::size_t{1} << 2 * bits) ++bits;
-  const double width = std::max({whole_.high_u - whole_.low_u, whole_.high_v - whole_.low_v, 0x1p-100});
-  const double scale = static_cast<double>((1 << bits) - 1) / width;
+  while (bits < 6 && places_.size() > std::size_t{4} << 2 * bits) ++bits;
+  const float scale = static_cast<float>((1 << bits) - 1) / std::max(whole_.width(), 0x1p-100f);
+  const auto cell_of = [scale](float place, float low) {
+    return static_cast<std::int32_t>(scale * (place - low));
+  };
+  keys_.resize(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    keys_[i] = spread(cell_of(places_.u[i], whole_.low_u)) | spread(cell_of(places_.v[i], whole_.low_v)) << 1;
   std::array<std::uint32_t, (1 << 12) + 1> start;
   std::fill_n(start.begin(), (std::size_t{1} << 2 * bits) + 1, 0u);
-  keys_.resize(places_.size());
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    keys_[i] = spread(static_cast<std::uint32_t>(scale * (places_.u[i] - whole_.low_u))) |
-               spread(static_cast<std::uint32_t>(scale * (places_.v[i] - whole_.low_v))) << 1;
-    ++start[keys_[i] + 1];
-  }
+  for (const std::int32_t key : keys_) ++start[static_cast<std::size_t>(key) + 1];
   for (std::size_t cell = 1; cell <= std::size_t{1} << 2 * bits; ++cell) start[cell] += start[cell - 1];
   sorted_.resize(places_.size());
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const std::size_t to = start[keys_[i]]++;
+    const std::size_t to = start[static_cast<std::size_t>(keys_[i])]++;
     sorted_.u[to] = places_.u[i];
     sorted_.v[to] = places_.v[i];
     sorted_.per_depth[to] = places_.per_depth[i];
@@ -199,23 +143,19 @@ void ShadowPackets::sort_places() {
 }
 
 // Packet by packet, as the groups come: those that lie apart go down the tree apart.
-void ShadowPackets::trace_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts) {
+void ShadowPackets::trace_face(std::vector<std::uint8_t>& dark, SignCounts& counts) {
   constexpr std::size_t kGroups = RayPacket::kGroups;
   if (places_.size() == 0) return;
   if (find_groups() > kApart * whole_.area()) {
     sort_places();
     find_groups();
   }
-  const int axis = face / 2;
-  glm::dvec3 middle(0);
-  middle[axis] = face % 2 == 0 ? 1 : -1;
+  const int axis = face_.axis;
   packet_.U = packet_.V = glm::dvec3(0);
   packet_.U[(axis + 1) % 3] = 1;
   packet_.V[(axis + 2) % 3] = 1;
-  for (std::size_t first = 0; first < groups_.size(); first += kGroups) {
-    packet_.W = middle;
+  for (std::size_t first = 0; first < groups_.size(); first += kGroups)
     trace_groups(first, std::min(first + kGroups, groups_.size()), dark, counts);
-  }
 }
 
 void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark,
@@ -223,42 +163,46 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vecto
   constexpr std::size_t kGroup = RayPacket::kGroup;
   Extent extent;
   for (std::size_t g = first; g < last; ++g) extent.grow(groups_[g]);
-  const double middle_u = 0.5 * (extent.low_u + extent.high_u),
-               middle_v = 0.5 * (extent.low_v + extent.high_v);
+  const float middle_u = 0.5f * (extent.low_u + extent.high_u),
+              middle_v = 0.5f * (extent.low_v + extent.high_v);
   const std::size_t from = first * kGroup, size = std::min(places_.size(), last * kGroup) - from;
   packet_.size = static_cast<int>(size);
-  for (std::size_t i = 0; i < size; ++i) packet_.u[i] = static_cast<float>(places_.u[from + i] - middle_u);
-  for (std::size_t i = 0; i < size; ++i) packet_.v[i] = static_cast<float>(places_.v[from + i] - middle_v);
+  for (std::size_t i = 0; i < size; ++i) packet_.u[i] = places_.u[from + i] - middle_u;
+  for (std::size_t i = 0; i < size; ++i) packet_.v[i] = places_.v[from + i] - middle_v;
   std::copy_n(&places_.per_depth[from], size, packet_.w.begin());
   std::copy_n(&places_.own[from], size, packet_.own.begin());
   number_ = std::span(&places_.number[from], size);
-  packet_.W += middle_u * packet_.U + middle_v * packet_.V;
+  packet_.W = (face_.middle_u + static_cast<double>(middle_u)) * packet_.U +
+              (face_.middle_v + static_cast<double>(middle_v)) * packet_.V;
+  packet_.W[face_.axis] = face_.sign;
   packet_.distance = (1 + 0x1p-22) * packet_.length / static_cast<double>(extent.least_per_depth);
-  // Places are rounded in double, at most kWide, and in float.
+  // Places are rounded in double, at most kWide, and to float, from the face's middle and from the packet's.
   packet_.place_error =
-      0x1p-49 * kWide + 0x1p-23 * std::max(extent.high_u - extent.low_u, extent.high_v - extent.low_v);
+      0x1p-49 * CubeFace::kWide + 0x1p-23 * static_cast<double>(whole_.farthest() + extent.width());
   // Rounding keeps the order, so that a group's least is that of its rays.
-  packet_.extent_u = static_cast<float>(extent.high_u - middle_u);
-  packet_.extent_v = static_cast<float>(extent.high_v - middle_v);
+  packet_.extent_u = std::max(extent.high_u - middle_u, middle_u - extent.low_u);
+  packet_.extent_v = std::max(extent.high_v - middle_v, middle_v - extent.low_v);
   for (std::size_t g = first; g < last; ++g) {
-    packet_.group_u[0][g - first] = static_cast<float>(groups_[g].low_u - middle_u);
-    packet_.group_u[1][g - first] = static_cast<float>(groups_[g].high_u - middle_u);
-    packet_.group_v[0][g - first] = static_cast<float>(groups_[g].low_v - middle_v);
-    packet_.group_v[1][g - first] = static_cast<float>(groups_[g].high_v - middle_v);
+    packet_.group_u[0][g - first] = groups_[g].low_u - middle_u;
+    packet_.group_u[1][g - first] = groups_[g].high_u - middle_u;
+    packet_.group_v[0][g - first] = groups_[g].low_v - middle_v;
+    packet_.group_v[1][g - first] = groups_[g].high_v - middle_v;
     packet_.least_w[g - first] = groups_[g].least_per_depth;
   }
   start(packet_);
   packet_.budget.fill(kGroupWork);
   trace_packet(isa_, prepared_, packet_, counts);
   for (std::size_t i = 0; i < size; ++i)
-    dark[number_[i]] =
-        packet_.primitive[i] >= 0 || (packet_.budget[i / kGroup] < 0 && is_dark(number_[i], counts));
+    dark[static_cast<std::size_t>(number_[i])] = packet_.primitive[i] >= 0;
+  for (std::size_t i = 0; i < size; ++i)
+    if (packet_.budget[i / kGroup] < 0 && packet_.primitive[i] < 0)
+      dark[static_cast<std::size_t>(number_[i])] = is_dark(static_cast<std::size_t>(number_[i]), counts);
 }
 
 // Alone.
 bool ShadowPackets::is_dark(std::size_t number, SignCounts& counts) const {
-  return blocker(prepared_, ray_to_light(query(number).from, *light_), &light_->position, counts, kRayStart,
-                 Precision::exact, isa_)
+  return blocker(prepared_, ray_to_light((*queries_)[number].from, *light_), &light_->position, counts,
+                 kRayStart, Precision::exact, isa_)
       .found();
 }
 
@@ -266,7 +210,8 @@ void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primit
   const ShadowPackets& self = *static_cast<const ShadowPackets*>(packet.context);
   // As blocker() does; what casts no shadow is not asked about.
   const Scene& scene = self.prepared_.scene;
-  const Ray exact = ray_to_light(self.query(self.number_[ray]).from, *self.light_);
+  const Ray exact =
+      ray_to_light((*self.queries_)[static_cast<std::size_t>(self.number_[ray])].from, *self.light_);
   const Hit hit = intersect(scene, primitive, exact, kRayStart, counts);
   if (!hit.found() || !before_light(scene, hit, exact, self.light_->position, counts)) return;
   packet.primitive[ray] = static_cast<std::int32_t>(primitive);

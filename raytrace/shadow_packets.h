@@ -6,58 +6,43 @@
 // (shadow rays traced from the light); here sorted where neighbours lie too far apart.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "raytrace/packets.h"
+#include "raytrace/shadow_places.h"
 
 namespace sidelight::raytrace {
-
-struct ShadowQuery {
-  glm::dvec3 from{0};  // leaving_point(); the light is on the side of the surface on which it lies
-  // The primitive that asks, where it is flat, or a sphere that is left outward; else kNone.
-  std::uint32_t own = kNone;
-};
 
 class ShadowPackets {
  public:
   ShadowPackets(const Prepared& prepared, Isa isa);
 
-  // dark[k] != 0 where something blocks queries[asking[k]]. The light is not directional. Neighbours in this order should
-  // be neighbours in space.
-  void trace(const Light& light, std::span<const ShadowQuery> queries, std::span<const std::uint32_t> asking,
-             std::vector<std::uint8_t>& dark, SignCounts& counts);
+  // dark[k] != 0 where queries[k] asks and something blocks it. The light is not directional.
+  void trace(const Light& light, const ShadowQueries& queries, std::vector<std::uint8_t>& dark,
+             SignCounts& counts);
 
  private:
-  // Queries on a face of the cube, side by side: P = light + (axis + u U + v V) / per_depth.
-  struct Places {
-    std::vector<double> u, v;
-    std::vector<float> per_depth;
-    std::vector<std::uint32_t> number;  // in asking_
-    std::vector<std::int32_t> own;      // ShadowQuery::own, -1 for kNone
-
-    std::size_t size() const { return number.size(); }
-    void resize(std::size_t size);
-  };
   // What the rays of a group, or of more, have in common.
   struct Extent {
-    double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
-    float least_per_depth = std::numeric_limits<float>::infinity();
+    float low_u = std::numeric_limits<float>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
+    float least_per_depth = low_u;
 
     void grow(const Extent& other);
-    double area() const { return (high_u - low_u) * (high_v - low_v); }
+    float area() const { return (high_u - low_u) * (high_v - low_v); }
+    float width() const { return std::max(high_u - low_u, high_v - low_v); }
+    float farthest() const {  // from the face's middle
+      return std::max(std::max(-low_u, high_u), std::max(-low_v, high_v));
+    }
   };
 
-  bool find_places(int face, bool all);
-  template <int kAxis>
-  bool find_places_along(int face, bool all);
   Extent group_at(std::size_t first) const;
-  double find_groups();
-  void trace_face(int face, std::vector<std::uint8_t>& dark, SignCounts& counts);
+  float find_groups();
+  void trace_face(std::vector<std::uint8_t>& dark, SignCounts& counts);
   void sort_places();
   void trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark, SignCounts& counts);
-  const ShadowQuery& query(std::size_t number) const { return queries_[asking_[number]]; }
   bool is_dark(std::size_t number, SignCounts& counts) const;
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
 
@@ -65,14 +50,14 @@ class ShadowPackets {
   Isa isa_;
   RayPacket packet_;
   const Light* light_ = nullptr;
-  std::span<const ShadowQuery> queries_;
-  std::span<const std::uint32_t> asking_;
+  const ShadowQueries* queries_ = nullptr;
+  CubeFace face_;
   // Of one face, in the order of the queries and sorted.
-  Places places_, sorted_;
-  std::vector<std::uint32_t> keys_;
+  ShadowPlaces places_, sorted_;
+  std::vector<std::int32_t> keys_;
   std::vector<Extent> groups_;
-  Extent whole_;                           // of all groups
-  std::span<const std::uint32_t> number_;  // of the packet's rays
+  Extent whole_;                          // of all groups
+  std::span<const std::int32_t> number_;  // of the packet's rays
 };
 
 }  // namespace sidelight::raytrace

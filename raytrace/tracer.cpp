@@ -106,10 +106,13 @@ void trace_in_waves(const Prepared& prepared, const Camera& camera, const Media&
 template <class Real>
 Frame render_in(const Prepared& prepared, const Camera& camera, const RenderOptions& options, bool in_waves) {
   const StandardFloatState nearest_and_denormals;
-  Frame frame = make_frame(camera.width, camera.height, camera.n, options);
+  const bool secondary = prepared.needs[Need::mirrors] || prepared.needs[Need::refraction];
+  constexpr LayerMask kBySecondary = layer_bit(Layer::reflection) | layer_bit(Layer::refraction);
+  const LayerMask written = secondary ? kRaytraceLayers : kRaytraceLayers & ~kBySecondary;
+  Frame frame = in_waves ? make_frame_to_write(camera.width, camera.height, camera.n, options, written)
+                         : make_frame(camera.width, camera.height, camera.n, options);
   const Media eye_media = media_at(prepared, camera.eye);
   // Weights not sent, by pixel, so that their sum does not depend on tiles.
-  const bool secondary = prepared.needs[Need::mirrors] || prepared.needs[Need::refraction];
   std::vector<double> cut(secondary ? frame.pixels() : 0);
   if (in_waves)
     trace_in_waves(prepared, camera, eye_media, options, frame, cut);

@@ -85,9 +85,15 @@ bool Wave::take_part(std::size_t depth) {
 void Wave::begin(const Rect& pixels) {
   if (pixels.width() != pixels_.width() || pixels.height() != pixels_.height()) {
     const auto width = static_cast<std::uint32_t>(camera_.n * pixels.width());
-    order_.clear();
-    for (const std::uint32_t i : EyePackets::order(camera_.n * pixels.width(), camera_.n * pixels.height()))
-      order_.push_back({i, static_cast<std::uint16_t>(i % width), static_cast<std::uint16_t>(i / width)});
+    order_ = EyePackets::order(camera_.n * pixels.width(), camera_.n * pixels.height());
+    place_.resize(order_.size());
+    column_.clear();
+    row_.clear();
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+      place_[order_[k]] = static_cast<std::uint32_t>(k);
+      column_.push_back(order_[k] % width);
+      row_.push_back(order_[k] / width);
+    }
   }
   pixels_ = pixels;
   if (levels_.empty()) levels_.resize(1);
@@ -102,8 +108,8 @@ void Wave::begin(const Rect& pixels) {
 
 Ray Wave::ray_of(const Level& level, std::size_t ray) const {
   if (!level.rays.empty()) return level.rays[ray].path.ray;
-  const auto X = camera_.n * pixels_.x0 + static_cast<int>(ray % columns());
-  const auto Y = camera_.n * pixels_.y0 + static_cast<int>(ray / columns());
+  const auto X = camera_.n * pixels_.x0 + static_cast<int>(order_[ray] % columns());
+  const auto Y = camera_.n * pixels_.y0 + static_cast<int>(order_[ray] / columns());
   return {camera_.eye, camera_.direction(X, Y)};
 }
 
@@ -124,7 +130,7 @@ void Wave::take_primary(std::vector<Hit>& hits) const {
     std::size_t from = pixel * per_pixel;
     tile.for_each_sample(first, [&](std::size_t sample) {
       const std::uint32_t primitive = primary_->sample_primitive[from];
-      if (primitive != kNone) hits[sample] = {primary_->sample_depth[from], primitive};
+      if (primitive != kNone) hits[place_[sample]] = {primary_->sample_depth[from], primitive};
       ++from;
     });
   });

@@ -53,7 +53,7 @@ struct Sender {
 };
 
 // Rays of one depth that are traced together. Numbers are those of the rays; of the eye's level, of the tile's samples
-// row by row.
+// in the order of EyePackets.
 struct Level {
   std::vector<WaveRay> rays;     // none at the eye's level: those are the camera's
   std::vector<WaveRay> waiting;  // rays of this depth whose turn comes later
@@ -77,7 +77,7 @@ class Wave {
   void trace(const Rect& pixels, RenderStats& stats);
   // Then: their means into the frame; the sums of their samples' cut weights into `cut`, which is
   // as large as the frame where there are secondary rays.
-  void write(Frame& frame, std::vector<double>& cut) const;
+  void write(Frame& frame, std::vector<double>& cut);
 
  private:
   using Colors = std::vector<glm::vec3>;
@@ -95,13 +95,15 @@ class Wave {
   void find_first_hits(Level& level, RenderStats& stats);
   Hit first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats);
   void find_surfaces(Level& level, bool eye, RenderStats& stats);
+  void find_seen_surfaces(Level& level, RenderStats& stats);
+  std::size_t add_seen(const Level& level, std::size_t first, const Object& object);
   void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
   void find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch, RenderStats& stats);
   bool stands_alone(Level& level, std::size_t ray, ObjectKind kind);
   void add_lights(const Level& level, RenderStats& stats);
   void find_shadows(std::size_t light, RenderStats& stats);
-  ShadowQuery shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const;
-  std::size_t enclosing_solid(const Level& level, const HitBatch& batch, std::size_t i) const;
+  void find_queries(const Level& level);
+  void find_asking(std::size_t light, RenderStats& stats);
   void add_lights_of(HitBatch& batch) const;
   void sum_up(Level& level, bool eye);
   void send_secondary(Level& level, Level& next, RenderStats& stats);
@@ -115,6 +117,8 @@ class Wave {
                 RenderStats& stats);
   void send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
   void send_transmitted(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
+  template <class T>
+  const std::vector<T>& in_rows(const std::vector<T>& of, std::vector<T>& rows) const;
   void bring_back(const Level& level, Level& parent) const;
   HitBatch& next_batch();
 
@@ -127,21 +131,20 @@ class Wave {
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;
   Path eye_path_;  // of the eye's ray that was asked for last
-  // Of the eye's hits, block by block, as packets are; the sample's column and row in the tile.
-  struct EyeSample {
-    std::uint32_t number = 0;
-    std::uint16_t column = 0, row = 0;
-  };
-  std::vector<EyeSample> order_;
+  // The tile's samples as EyePackets has them: the number of each, counted row by row, its column and its row; and the
+  // place of each number in this order.
+  std::vector<std::uint32_t> order_, place_;
+  std::vector<double> column_, row_;
   EyePackets eye_packets_;
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
   ShadowPackets shadow_packets_;
   Enclosures enclosures_;
   Clearings clearings_;
-  std::vector<ShadowQuery> queries_;    // of entry i of batch b: [b kCapacity + i]
-  std::vector<std::size_t> enclosing_;  // likewise: the solid around it, or Enclosures::kNone
+  ShadowQueries queries_;  // of entry i of batch b: [b kCapacity + i]
+  // Likewise: the solid around it, or Enclosures::kNone; empty where there surely is none.
+  std::vector<std::size_t> enclosing_;
   std::vector<RayQuestion> questions_;
-  std::vector<std::uint32_t> asking_;  // which ask a light, or are the rays of questions_
+  std::vector<std::uint32_t> asking_;  // which are the rays of questions_
   std::vector<std::uint8_t> dark_;
   std::vector<Level> levels_;
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind
@@ -154,6 +157,9 @@ class Wave {
   std::array<Colors, 3> parts_;  // ambient, diffuse, specular
   Colors shadow_, normal_;
   std::vector<double> t_;
+  // What is about to be written, row by row.
+  Colors rows_, normal_rows_;
+  std::vector<double> t_rows_;
 };
 
 }  // namespace sidelight::raytrace

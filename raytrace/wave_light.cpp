@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light of a level's hits: shadow rays light by light, and the sums.
+#include <algorithm>
 #include <bit>
 
 #include "raytrace/wave.h"
@@ -12,66 +13,76 @@ glm::vec3 rgb(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 }  // namespace
 
 void Wave::add_lights(const Level& level, RenderStats& stats) {
-  queries_.resize(used_ * ShadingBatch::kCapacity);
-  enclosing_.resize(queries_.size());
-  for (std::size_t b = 0; b < used_; ++b)
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i) {
-      const std::size_t query = b * ShadingBatch::kCapacity + i;
-      queries_[query] = shadow_query(level, batches_[b], i);
-      enclosing_[query] = enclosing_solid(level, batches_[b], i);
-    }
+  find_queries(level);
   for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) find_shadows(light, stats);
   for (std::size_t b = 0; b < used_; ++b) add_lights_of(batches_[b]);
 }
 
-ShadowQuery Wave::shadow_query(const Level& level, const HitBatch& batch, std::size_t i) const {
-  const std::uint32_t ray = batch.ray[i];
-  ShadowQuery query{get(batch.from, i), level.hits[ray].primitive};
-  if (batch.kind == ObjectKind::sphere &&
-      !is_entering(scene_, ray_of(level, ray), level.hits[ray], get(batch.facing, i)))
-    query.own = kNone;
-  return query;
-}
-
-// Not of eye rays, most of which travel in the open.
-std::size_t Wave::enclosing_solid(const Level& level, const HitBatch& batch, std::size_t i) const {
-  if (level.rays.empty()) return Enclosures::kNone;
-  const std::uint32_t ray = batch.ray[i];
-  return enclosures_.around(get(batch.from, i), level.rays[ray].path.media, level.alone[ray]);
+void Wave::find_queries(const Level& level) {
+  constexpr std::size_t kCapacity = ShadingBatch::kCapacity;
+  queries_.resize(used_ * kCapacity);
+  // Not of eye rays, most of which travel in the open.
+  const bool may_enclose = !level.rays.empty() && !prepared_.solids.empty();
+  enclosing_.resize(may_enclose ? queries_.size() : 0);
+  for (std::size_t b = 0, first = 0; b < used_; ++b, first += kCapacity) {
+    const HitBatch& batch = batches_[b];
+    const auto size = static_cast<std::size_t>(batch.size);
+    std::copy_n(batch.from[0].begin(), size, &queries_.x[first]);
+    std::copy_n(batch.from[1].begin(), size, &queries_.y[first]);
+    std::copy_n(batch.from[2].begin(), size, &queries_.z[first]);
+    for (std::size_t i = 0; i < size; ++i)
+      queries_.own[first + i] = static_cast<std::int32_t>(level.hits[batch.ray[i]].primitive);
+    for (std::size_t i = 0; i < size && batch.kind == ObjectKind::sphere; ++i)
+      if (!is_entering(scene_, ray_of(level, batch.ray[i]), level.hits[batch.ray[i]], get(batch.facing, i)))
+        queries_.own[first + i] = -1;
+    for (std::size_t i = 0; i < size && may_enclose; ++i)
+      enclosing_[first + i] = enclosures_.around(get(batch.from, i), level.rays[batch.ray[i]].path.media,
+                                                 level.alone[batch.ray[i]]);
+  }
 }
 
 // Where a shadow ray is blocked, the light's state becomes that of a surface in its own light: b_i = 0.
 void Wave::find_shadows(std::size_t light, RenderStats& stats) {
   const Light& source = scene_.lights[light];
-  asking_.resize(queries_.size());
-  std::size_t asking = 0;
-  for (std::size_t b = 0; b < used_; ++b) {
-    ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i) {
-      const std::size_t query = b * ShadingBatch::kCapacity + i;
-      const bool asks = state[i] == LightTerms::kAsk, hidden = enclosures_.hide(enclosing_[query], light);
-      asking_[asking] = static_cast<std::uint32_t>(query);
-      asking += asks && !hidden;
-      stats.rays.shadow += asks;
-      stats.self_shadowed += state[i] == LightTerms::kSelfShadowed;
-      if (asks && hidden) state[i] = LightTerms::kSelfShadowed;  // b_i = 0, as there
-    }
-  }
-  asking_.resize(asking);
+  find_asking(light, stats);
   if (source.directional) {
-    dark_.clear();
-    for (const std::uint32_t hit : asking_)
-      dark_.push_back(blocker(prepared_, ray_to_light(queries_[hit].from, source), nullptr, stats.signs,
-                              kRayStart, Precision::exact, isa_)
-                          .found());
+    dark_.assign(queries_.size(), 0);
+    for (std::size_t i = 0; i < queries_.size(); ++i)
+      if (queries_.asks[i] != 0)
+        dark_[i] = blocker(prepared_, ray_to_light(queries_[i].from, source), nullptr, stats.signs, kRayStart,
+                           Precision::exact, isa_)
+                       .found();
   } else {
-    shadow_packets_.trace(source, queries_, asking_, dark_, stats.signs);
+    shadow_packets_.trace(source, queries_, dark_, stats.signs);
   }
-  for (std::size_t k = 0; k < asking; ++k)
-    if (dark_[k] != 0)
-      batches_[asking_[k] / ShadingBatch::kCapacity].lit.light[light].state[asking_[k] %
-                                                                            ShadingBatch::kCapacity] =
-          LightTerms::kSelfShadowed;
+  for (std::size_t b = 0, first = 0; b < used_; ++b, first += ShadingBatch::kCapacity) {
+    ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
+      state[i] = dark_[first + i] != 0 ? LightTerms::kSelfShadowed : state[i];
+  }
+}
+
+// Which queries ask this light.
+void Wave::find_asking(std::size_t light, RenderStats& stats) {
+  for (std::size_t b = 0, first = 0; b < used_; ++b, first += ShadingBatch::kCapacity) {
+    ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
+    const auto size = static_cast<std::size_t>(batches_[b].size);
+    std::int32_t* asks = &queries_.asks[first];
+    unsigned asking = 0, shadowed = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      asks[i] = state[i] == LightTerms::kAsk;
+      asking += static_cast<unsigned>(asks[i]);
+      shadowed += state[i] == LightTerms::kSelfShadowed;
+    }
+    std::fill(asks + size, asks + ShadingBatch::kCapacity, 0);
+    stats.rays.shadow += asking;
+    stats.self_shadowed += shadowed;
+    for (std::size_t i = 0; i < size && asking > 0 && !enclosing_.empty(); ++i)
+      if (asks[i] != 0 && enclosures_.hide(enclosing_[first + i], light)) {
+        asks[i] = 0;
+        state[i] = LightTerms::kSelfShadowed;  // b_i = 0, as there
+      }
+  }
 }
 
 // Masks, and not branches that nobody could predict.

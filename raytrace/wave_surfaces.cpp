@@ -20,12 +20,9 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     batch.has_t = !eye || primary_;
     batch.want_t = eye && !primary_ && (want_t_ || batch.want_leaving);
   }
-  // Steps of column and row are whole numbers, exact.
-  const double first_column = camera_.column_factor(camera_.n * pixels_.x0);
-  const double first_row = camera_.row_factor(camera_.n * pixels_.y0);
+  if (eye) return find_seen_surfaces(level, stats);
   PrimitiveFinder find(scene_);
-  for (std::size_t k = 0; k < level.hits.size(); ++k) {
-    const std::size_t i = eye ? order_[k].number : k;
+  for (std::size_t i = 0; i < level.hits.size(); ++i) {
     const Hit& hit = level.hits[i];
     if (!hit.found()) continue;
     SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(find(hit.primitive).kind)];
@@ -33,17 +30,49 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     batch.t[entry] = hit.t;
     batch.primitive[entry] = hit.primitive;
     batch.sample[entry] = static_cast<std::uint32_t>(i);
-    if (eye) {
-      batch.column[entry] = first_column + 2 * order_[k].column;
-      batch.row[entry] = first_row - 2 * order_[k].row;
-    } else {
-      put(batch.origin, entry, level.rays[i].path.ray.origin);
-      put(batch.direction, entry, level.rays[i].path.ray.direction);
-    }
+    put(batch.origin, entry, level.rays[i].path.ray.origin);
+    put(batch.direction, entry, level.rays[i].path.ray.direction);
     ++batch.size;
     if (batch.room() == 0) flush(level, batch, eye, stats);
   }
   for (SurfaceBatch& batch : surfaces_) flush(level, batch, eye, stats);
+}
+
+// Stretch by stretch of what is of one object.
+void Wave::find_seen_surfaces(Level& level, RenderStats& stats) {
+  const Object* object = nullptr;  // most often that of the stretch before
+  for (std::size_t k = 0; k < level.hits.size();) {
+    const std::uint32_t primitive = level.hits[k].primitive;
+    if (primitive == kNone) {
+      ++k;
+      continue;
+    }
+    if (!object || primitive - object->first_primitive >= object->count)
+      object = &scene_.objects[scene_.primitive_object[primitive]];
+    k = add_seen(level, k, *object);
+    SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(object->kind)];
+    if (batch.room() == 0) flush(level, batch, true, stats);
+  }
+  for (SurfaceBatch& batch : surfaces_) flush(level, batch, true, stats);
+}
+
+// Hits of the object in a row, from the first on, as far as there is room. Returns the next one.
+std::size_t Wave::add_seen(const Level& level, std::size_t first, const Object& object) {
+  SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(object.kind)];
+  const std::size_t end = std::min(level.hits.size(), first + static_cast<std::size_t>(batch.room()));
+  std::size_t entry = static_cast<std::size_t>(batch.size), last = first;
+  for (; last < end && level.hits[last].primitive - object.first_primitive < object.count; ++last)
+    batch.primitive[entry++] = level.hits[last].primitive;
+  const auto to = static_cast<std::size_t>(batch.size), count = last - first;
+  // Steps of column and row are whole numbers, exact.
+  const double first_column = camera_.column_factor(camera_.n * pixels_.x0);
+  const double first_row = camera_.row_factor(camera_.n * pixels_.y0);
+  for (std::size_t i = 0; i < count; ++i) batch.column[to + i] = first_column + 2 * column_[first + i];
+  for (std::size_t i = 0; i < count; ++i) batch.row[to + i] = first_row - 2 * row_[first + i];
+  for (std::size_t i = 0; i < count; ++i) batch.sample[to + i] = static_cast<std::uint32_t>(first + i);
+  for (std::size_t i = 0; i < count && batch.has_t; ++i) batch.t[to + i] = level.hits[first + i].t;
+  batch.size += static_cast<int>(count);
+  return last;
 }
 
 void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& stats) {

@@ -84,8 +84,10 @@ void fetch(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch,
   const auto runs = static_cast<std::size_t>(batch.runs);
   for (std::size_t r = 0; r < runs; ++r) {
     batch.index[r] = find(batch.primitive[entry[r]]).index;
-    if (!batch.prefetched) prefetch_surface(scene, {batch.kind, batch.index[r]});
+    if (!batch.prefetched && batch.kind == ObjectKind::mesh) prefetch(&scene.triangles[batch.index[r]]);
   }
+  for (std::size_t r = 0; r < runs && !batch.prefetched; ++r)
+    prefetch_surface(scene, {batch.kind, batch.index[r]});
   Entries material;
   std::uint32_t unlike = 0;
   for (std::size_t r = 0; r < runs; ++r) {

@@ -137,21 +137,21 @@ Counts check_eye(const Prepared& prepared, const Camera& camera, Isa isa) {
   std::vector<std::uint8_t> alone;
   for (const auto& [X0, Y0, columns, rows] : {std::array{0, 0, 32, 32}, {32, 0, 21, 32}, {3, 32, 50, 7}}) {
     packets.trace(X0, Y0, columns, rows, hits, alone, counts);
-    for (int y = 0; y < rows; ++y)
-      for (int x = 0; x < columns; ++x) {
-        const auto i = static_cast<std::size_t>(y * columns + x);
-        const Ray ray{camera.eye, camera.direction(X0 + x, Y0 + y)};
-        const Hit expected = nearest(prepared, ray, kRayStart, counts);
-        ++result.asked;
-        result.different += hits[i].primitive != expected.primitive;
-        result.positive += expected.found();
-        if (!expected.found() || !alone[i] || expected.t >= 16 * packets.reach() / packets.ray_length())
-          continue;
-        const Place at = locate(prepared.scene, ray, expected, counts);
-        result.different +=
-            leaving_point(prepared, ray, expected, at, counts) != at.point + at.clearance * at.facing;
-        ++result.alone;
-      }
+    const std::vector<std::uint32_t> order = raytrace::EyePackets::order(columns, rows);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const auto sample = static_cast<int>(order[i]);
+      const Ray ray{camera.eye, camera.direction(X0 + sample % columns, Y0 + sample / columns)};
+      const Hit expected = nearest(prepared, ray, kRayStart, counts);
+      ++result.asked;
+      result.different += hits[i].primitive != expected.primitive;
+      result.positive += expected.found();
+      if (!expected.found() || !alone[i] || expected.t >= 16 * packets.reach() / packets.ray_length())
+        continue;
+      const Place at = locate(prepared.scene, ray, expected, counts);
+      result.different +=
+          leaving_point(prepared, ray, expected, at, counts) != at.point + at.clearance * at.facing;
+      ++result.alone;
+    }
   }
   return result;
 }
@@ -160,14 +160,21 @@ Counts check_shadows(const Prepared& prepared, const Light& light, const std::ve
                      Isa isa) {
   Counts result;
   SignCounts counts;
-  std::vector<std::uint32_t> asking;
-  for (std::uint32_t i = 0; i < queries.size(); ++i)
-    if (faces_light(prepared.scene, queries[i], light)) asking.push_back(i);
+  raytrace::ShadowQueries asked;
+  asked.resize(queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    asked.set(i, queries[i]);
+    asked.asks[i] = faces_light(prepared.scene, queries[i], light);
+  }
   raytrace::ShadowPackets packets(prepared, isa);
   std::vector<std::uint8_t> dark;
-  packets.trace(light, queries, asking, dark, counts);
-  for (std::size_t i = 0; i < asking.size(); ++i) {
-    const Ray ray = raytrace::ray_to_light(queries[asking[i]].from, light);
+  packets.trace(light, asked, dark, counts);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (asked.asks[i] == 0) {
+      result.different += dark[i] != 0;
+      continue;
+    }
+    const Ray ray = raytrace::ray_to_light(queries[i].from, light);
     const bool expected = blocker(prepared, ray, &light.position, counts).found();
     ++result.asked;
     result.different += (dark[i] != 0) != expected;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "raytrace/shadow_places.h"
+
+#include <cmath>
+
+namespace sidelight::raytrace {
+namespace {
+
+constexpr std::size_t kWholeLanes = 16;
+
+// Room for what lanes write beyond the last place.
+std::size_t find(Isa isa, const ShadowQueries& queries, const CubeFace& face, bool all,
+                 ShadowPlaces& places) {
+  places.resize(queries.size() + kWholeLanes);
+  return by_isa(isa, find_places_scalar, find_places_avx2, find_places_avx512)(queries, face, all, places);
+}
+
+}  // namespace
+
+void ShadowQueries::resize(std::size_t size) {
+  const std::size_t whole = (size + kWholeLanes - 1) / kWholeLanes * kWholeLanes;
+  for (std::vector<double>* axis : {&x, &y, &z}) axis->resize(whole);
+  own.resize(whole, -1);
+  asks.resize(whole);
+}
+
+void ShadowPlaces::resize(std::size_t size) {
+  for (std::vector<float>* row : {&u, &v, &per_depth}) row->resize(size);
+  number.resize(size);
+  own.resize(size);
+}
+
+CubeFace face_towards(const glm::dvec3& point, const glm::dvec3& light) {
+  const glm::dvec3 p = point - light;
+  const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
+  CubeFace face;
+  face.axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+  face.sign = p[face.axis] < 0 ? -1 : 1;
+  face.light = light;
+  const double depth = face.sign * p[face.axis];
+  if (depth < CubeFace::kLeastDepth) return face;
+  face.middle_u = p[(face.axis + 1) % 3] / depth;
+  face.middle_v = p[(face.axis + 2) % 3] / depth;
+  return face;
+}
+
+bool find_places(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places) {
+  const std::size_t size = find(isa, queries, face, true, places);
+  if (size == kNotSeen) return false;
+  places.resize(size);
+  return true;
+}
+void find_places_behind(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places) {
+  places.resize(find(isa, queries, face, false, places));
+}
+
+}  // namespace sidelight::raytrace

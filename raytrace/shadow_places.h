@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Points that ask a light, as that light sees them: places on a face of a cube around it (shadow_packets.h). Filtered out
+// of the hits of a tile and projected many at a time; the same bits for every instruction set.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/math/isa.h"
+#include "common/scene/scene.h"
+
+namespace sidelight::raytrace {
+
+struct ShadowQuery {
+  glm::dvec3 from{0};  // leaving_point(); the light is on the side of the surface on which it lies
+  // The primitive that asks, where it is flat, or a sphere that is left outward; else kNone.
+  std::uint32_t own = kNone;
+};
+
+// Side by side, for all lights in turn. Neighbours in this order should be neighbours in space.
+class ShadowQueries {
+ public:
+  std::vector<double> x, y, z;     // ShadowQuery::from
+  std::vector<std::int32_t> own;   // ShadowQuery::own, -1 for kNone
+  std::vector<std::int32_t> asks;  // not 0 where the light is to be asked
+
+  std::size_t size() const { return asks.size(); }
+  // To a number of queries, rounded up to whole lanes; those that are added ask nothing.
+  void resize(std::size_t size);
+  ShadowQuery operator[](std::size_t i) const {
+    return {{x[i], y[i], z[i]}, static_cast<std::uint32_t>(own[i])};
+  }
+  void set(std::size_t i, const ShadowQuery& query) {
+    x[i] = query.from.x;
+    y[i] = query.from.y;
+    z[i] = query.from.z;
+    own[i] = static_cast<std::int32_t>(query.own);
+  }
+};
+
+// From where a light is seen through: P = light + depth (axis + u U + v V), U and V being the axes that follow.
+struct CubeFace {
+  // How far beyond its edges a face is used where that spares a second one.
+  static constexpr double kWide = 2;
+  // Points nearer to the light than this have no direction from it that a double could hold.
+  static constexpr double kLeastDepth = 1e-100;
+
+  int axis = 0;
+  double sign = 1;
+  glm::dvec3 light{0};
+  double middle_u = 0, middle_v = 0;  // what u and v are told from
+};
+// The one that a point lies behind, the point in its middle.
+CubeFace face_towards(const glm::dvec3& point, const glm::dvec3& light);
+
+struct ShadowPlaces {
+  std::vector<float> u, v;  // from the face's middle; rounded to double, at most kWide, then to float
+  std::vector<float> per_depth;
+  std::vector<std::int32_t> number;  // of the query
+  std::vector<std::int32_t> own;     // as there
+
+  std::size_t size() const { return number.size(); }
+  void resize(std::size_t size);
+};
+
+// Of all queries that ask: true if they can all be seen through this face; else `places` are of no use.
+bool find_places(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places);
+// Of those that ask and that lie behind this face itself.
+void find_places_behind(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places);
+
+// One for each instruction set: of all that ask, or only of those behind the face. `places` has room for all queries;
+// returns how many there are, or kNotSeen.
+inline constexpr std::size_t kNotSeen = ~std::size_t{0};
+std::size_t find_places_scalar(const ShadowQueries& queries, const CubeFace& face, bool all,
+                               ShadowPlaces& places);
+std::size_t find_places_avx2(const ShadowQueries& queries, const CubeFace& face, bool all,
+                             ShadowPlaces& places);
+std::size_t find_places_avx512(const ShadowQueries& queries, const CubeFace& face, bool all,
+                               ShadowPlaces& places);
+
+}  // namespace sidelight::raytrace
