@@ -46,16 +46,25 @@ struct RayQuestion {
   Hit best;
 };
 
+// Whether something blocks a ray to a point light, after kRayStart; nothing is asked where that is known already.
+struct ShadowQuestion {
+  Ray ray;
+  bool blocked = false;
+};
+
 // Rays are finite; planes are left to the caller.
 struct Kernels {
   // Replaces `best` by what is nearer, of that which comes after `after` and is not `except`.
   void (*nearest)(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t except, Hit& best,
                   SignCounts& counts);
-  // The same for many rays: neighbours should have much the same way.
+  // The same for many rays, finite or not: neighbours should have much the same way.
   void (*nearest_of)(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts);
   // blocker() of prepared.h.
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);
+  // Whether it finds something, for many rays to one point light: likewise.
+  void (*blocked_of)(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3& light,
+                     SignCounts& counts);
   // Visits all primitives that may be met at a depth from `from` to `limit`.
   void (*candidates)(const Prepared& prepared, const Ray& ray, double from, double limit, SignCounts& counts,
                      const PrimitiveVisitor& visitor);

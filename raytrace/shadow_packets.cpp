@@ -100,13 +100,17 @@ void ShadowPackets::trace(const Light& light, std::span<const ShadowQuery> queri
   if (asking.empty()) return;
   // Most often one face will do, though some of the places lie beyond its edges.
   const int first = face_of(query(0).from - light.position);
-  if (find_places(first, true)) return trace_face(first, dark, counts);
-  for (int face = 0; face < 6; ++face) {
-    find_places(face, false);
-    trace_face(face, dark, counts);
+  if (find_places(first, true)) {
+    trace_face(first, dark, counts);
+  } else {
+    for (int face = 0; face < 6; ++face) {
+      find_places(face, false);
+      trace_face(face, dark, counts);
+    }
+    for (std::size_t i = 0; i < asking.size(); ++i)
+      if (max_norm(query(i).from - light.position) < kLeastDepth) leave(i);
   }
-  for (std::size_t i = 0; i < asking.size(); ++i)
-    if (max_norm(query(i).from - light.position) < kLeastDepth) dark[i] = is_dark(i, counts);
+  trace_left(dark, counts);
 }
 
 // Of all queries, false if some cannot be seen through this face; or of those whose face it is.
@@ -250,16 +254,23 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vecto
   start(packet_);
   packet_.budget.fill(kGroupWork);
   trace_packet(isa_, prepared_, packet_, counts);
-  for (std::size_t i = 0; i < size; ++i)
-    dark[number_[i]] =
-        packet_.primitive[i] >= 0 || (packet_.budget[i / kGroup] < 0 && is_dark(number_[i], counts));
+  for (std::size_t i = 0; i < size; ++i) {
+    dark[number_[i]] = packet_.primitive[i] >= 0;
+    if (packet_.primitive[i] < 0 && packet_.budget[i / kGroup] < 0) leave(number_[i]);
+  }
 }
 
-// Alone.
-bool ShadowPackets::is_dark(std::size_t number, SignCounts& counts) const {
-  return blocker(prepared_, ray_to_light(query(number).from, *light_), &light_->position, counts, kRayStart,
-                 Precision::exact, isa_)
-      .found();
+// A ray that goes without a packet.
+void ShadowPackets::leave(std::size_t number) {
+  left_.push_back(static_cast<std::uint32_t>(number));
+  questions_.push_back({ray_to_light(query(number).from, *light_)});
+}
+
+void ShadowPackets::trace_left(std::vector<std::uint8_t>& dark, SignCounts& counts) {
+  find_blocked(prepared_, questions_, light_->position, counts, isa_);
+  for (std::size_t i = 0; i < left_.size(); ++i) dark[left_[i]] = questions_[i].blocked;
+  left_.clear();
+  questions_.clear();
 }
 
 void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) {

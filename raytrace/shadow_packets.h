@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "raytrace/kernels.h"
 #include "raytrace/packets.h"
 
 namespace sidelight::raytrace {
@@ -58,7 +59,8 @@ class ShadowPackets {
   void sort_places();
   void trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark, SignCounts& counts);
   const ShadowQuery& query(std::size_t number) const { return queries_[asking_[number]]; }
-  bool is_dark(std::size_t number, SignCounts& counts) const;
+  void leave(std::size_t number);
+  void trace_left(std::vector<std::uint8_t>& dark, SignCounts& counts);
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
 
   const Prepared& prepared_;
@@ -73,6 +75,9 @@ class ShadowPackets {
   std::vector<Extent> groups_;
   Extent whole_;                           // of all groups
   std::span<const std::uint32_t> number_;  // of the packet's rays
+  // Rays without a packet, and their numbers.
+  std::vector<ShadowQuestion> questions_;
+  std::vector<std::uint32_t> left_;
 };
 
 }  // namespace sidelight::raytrace
