@@ -5,6 +5,7 @@
 
 #include <span>
 
+#include "raytrace/ball_batch.h"
 #include "raytrace/optics_batch.h"
 #include "raytrace/prepared.h"
 
@@ -72,8 +73,9 @@ struct Kernels {
   void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
   void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);
   double (*inset)(const TriangleLeaves& leaves, const InsetQuestion& question);
-  // Fills the batch's results.
+  // Each fills the batch's results.
   void (*directions)(OpticsBatch& batch);
+  void (*own_hits)(BallBatch& batch);
 };
 
 const Kernels& kernels_scalar();

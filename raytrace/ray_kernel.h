@@ -3,6 +3,7 @@
 // kernels_scalar.cpp, kernels_avx2.cpp and kernels_avx512.cpp.
 #pragma once
 
+#include "raytrace/ball_kernel.h"
 #include "raytrace/bundle_kernel.h"
 #include "raytrace/bvh_kernel.h"
 #include "raytrace/kernels.h"
@@ -271,6 +272,6 @@ inline constexpr Kernels kKernels{
     nearest_in_lanes<F, D>,        nearest_of_in_lanes<F, D>,   blocker_in_lanes<F, D>,
     blocked_of_in_lanes<F, D>,     candidates_in_lanes<F, D>,   visit_leaves_in_lanes<F, D>,
     near_triangles_in_lanes<F, D>, near_spheres_in_lanes<F, D>, inset_in_lanes<F, D>,
-    directions_in_lanes<D>};
+    directions_in_lanes<D>,        own_hits_in_lanes<D>};
 
 }  // namespace sidelight::raytrace
