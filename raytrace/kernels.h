@@ -5,6 +5,7 @@
 
 #include <span>
 
+#include "raytrace/ball_batch.h"
 #include "raytrace/optics_batch.h"
 #include "raytrace/prepared.h"
 
@@ -46,16 +47,25 @@ struct RayQuestion {
   Hit best;
 };
 
+// Whether something blocks a ray to a point light, after kRayStart; nothing is asked where that is known already.
+struct ShadowQuestion {
+  Ray ray;
+  bool blocked = false;
+};
+
 // Rays are finite; planes are left to the caller.
 struct Kernels {
   // Replaces `best` by what is nearer, of that which comes after `after` and is not `except`.
   void (*nearest)(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t except, Hit& best,
                   SignCounts& counts);
-  // The same for many rays: neighbours should have much the same way.
+  // The same for many rays, finite or not: neighbours should have much the same way.
   void (*nearest_of)(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts);
   // blocker() of prepared.h.
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);
+  // Whether it finds something, for many rays to one point light: likewise.
+  void (*blocked_of)(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3& light,
+                     SignCounts& counts);
   // Visits all primitives that may be met at a depth from `from` to `limit`.
   void (*candidates)(const Prepared& prepared, const Ray& ray, double from, double limit, SignCounts& counts,
                      const PrimitiveVisitor& visitor);
@@ -63,8 +73,9 @@ struct Kernels {
   void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
   void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);
   double (*inset)(const TriangleLeaves& leaves, const InsetQuestion& question);
-  // Fills the batch's results.
+  // Each fills the batch's results.
   void (*directions)(OpticsBatch& batch);
+  void (*own_hits)(BallBatch& batch);
 };
 
 const Kernels& kernels_scalar();

@@ -96,7 +96,7 @@ class TriangleFilter {
 };
 
 // Rounding. A bounds all components of f = o - c and the radius. The point of the line that is nearest to the centre is
-// found as f - (f.d / d.d) d, off by at most 20 u A in each component, 64 u A with room; visibility.h's is as much off.
+// found as f - (f.d / d.d) d, off by at most 22 u A in each component, 64 u A with room; visibility.h's is as much off.
 // Its own rounding of a root is small only where the line runs well inside; elsewhere nothing is said of depths.
 template <class D>
 class SphereFilter {
@@ -114,8 +114,11 @@ class SphereFilter {
       largest = lane_max(largest, magnitude(origin_[i]));
     }
     reach_ = 2 * largest;
-    square_ = (direction_[0] * direction_[0] + direction_[1] * direction_[1]) + direction_[2] * direction_[2];
-    inverse_length_ = 1 / square_root(square_);
+    inverse_square_ =
+        1 / ((direction_[0] * direction_[0] + direction_[1] * direction_[1]) + direction_[2] * direction_[2]);
+    doubt_ = 0x1p-20 * reach_ * square_root(inverse_square_);
+    clear_ = 0x1p-32 * reach_ * reach_;
+    if (!(clear_ * inverse_square_ > 0x1p-900)) clear_ = std::numeric_limits<double>::infinity();
   }
 
   // Of the `count` spheres of a leaf, which may be met at a depth in (0, limit].
@@ -135,7 +138,7 @@ class SphereFilter {
       along = along - f[i] * D(direction_[i]);
       from_center2 = from_center2 + f[i] * f[i];
     }
-    const D t = along / D(square_);  // of the nearest point
+    const D t = along * D(inverse_square_);  // of the nearest point
     for (std::uint32_t i = 0; i < 3; ++i) {
       const D n = f[i] + t * D(direction_[i]);
       distance2 = distance2 + n * n;
@@ -145,17 +148,18 @@ class SphereFilter {
     // A ray that leaves a ball, as sphere_roots() sees it: in its own bits, both roots are negative.
     const Mask<D> leaving = from_center2 - radius * radius > D(0) && along < D(0);
     const Mask<D> missed = inside < -(slack * (D(2) * (size + radius) + slack));
-    // Both ends of a chord that is not short, in units of length along the ray.
-    const D half = square_root(lane_max<D>(inside, D(0))) * D(inverse_length_);
-    const D doubt(0x1p-20 * reach_ * inverse_length_);
-    const Mask<D> clear = inside > D(0x1p-32 * reach_ * reach_);
-    const Mask<D> behind = t + half + doubt < D(0);
-    const Mask<D> beyond = t - half - doubt > D(limit * kDepthSlack);
+    // Both ends of a chord that is not short, t -+ half, in units of length along the ray: squares tell as much.
+    const Mask<D> clear = inside > D(clear_);
+    const D half2 = inside * D(inverse_square_);
+    const D before = D(-doubt_) - t, after = t - D(limit * kDepthSlack + doubt_);
+    const Mask<D> behind = before > D(0) && half2 < before * before;
+    const Mask<D> beyond = after > D(0) && half2 < after * after;
     return mask_bits<D>(!(leaving || missed || (clear && (behind || beyond))));
   }
 
   std::array<double, 3> origin_, direction_;
-  double reach_, square_, inverse_length_;
+  double reach_, inverse_square_, doubt_;
+  double clear_;  // half a chord, squared, whose ends are told apart; infinite where its square might be lost
 };
 
 }  // namespace sidelight::raytrace

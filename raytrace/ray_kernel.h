@@ -3,6 +3,7 @@
 // kernels_scalar.cpp, kernels_avx2.cpp and kernels_avx512.cpp.
 #pragma once
 
+#include "raytrace/ball_kernel.h"
 #include "raytrace/bundle_kernel.h"
 #include "raytrace/bvh_kernel.h"
 #include "raytrace/kernels.h"
@@ -95,59 +96,84 @@ template <class F, class D>
   });
 }
 
-// Of the primitives of one kind.
-template <class F, class Filter, int kRows>
-[[gnu::always_inline]] inline void nearest_of_bundle(const Prepared& prepared, const Leaves<kRows>& leaves,
-                                                     std::span<RayQuestion> questions,
-                                                     const std::array<Filter, Bundle::kCapacity>& filters,
-                                                     SignCounts& counts) {
+// Hands every primitive that a ray may meet at a depth from its start to its limit, as far as the filter can tell, to
+// ask(r, candidate), which returns the new limit.
+template <class F, class D, class Filter, int kRows, class Ask>
+[[gnu::always_inline]] inline void ask_leaves_of(const Leaves<kRows>& leaves, const Filter* filters,
+                                                 BundleRays& rays, SignCounts& counts, const Ask& ask) {
   Bundle bundle;
-  for (std::size_t r = 0; r < questions.size(); ++r) {
-    const RayQuestion& question = questions[r];
-    bundle.rays[r] = box_ray<F>(leaves.bvh, question.ray.origin, question.ray.direction);
-    bundle.least[r] = bundle.rays[r].least(question.after.t);
-    bundle.limit[r] = bundle.rays[r].limit(question.best.t);
+  set_up<D>(leaves.bvh, rays, bundle);
+  const auto visit = [&](std::uint32_t first, std::uint32_t count, std::uint32_t by) {
+    const double* leaf = leaves.leaf(first);
+    // All verdicts before anything is done about one, so that none waits for another.
+    std::array<LeafVerdict, Bundle::kCapacity> verdicts;
+    std::uint32_t asking = 0;
+    for (; by != 0; by &= by - 1) {
+      const auto r = static_cast<std::size_t>(std::countr_zero(by));
+      verdicts[r] = filters[r](leaf, count, rays.limit[r]);
+      asking |= std::uint32_t{verdicts[r].may != 0} << r;
+      const auto dropped = count - static_cast<std::uint32_t>(std::popcount(verdicts[r].may));
+      counts.tests += dropped;
+      counts.filtered += 3 * dropped;
+    }
+    for (; asking != 0; asking &= asking - 1) {
+      const auto r = static_cast<std::size_t>(std::countr_zero(asking));
+      for (std::uint32_t bits = verdicts[r].may; bits != 0 && rays.limit[r] >= 0; bits &= bits - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
+        const bool met = (verdicts[r].must >> i & 1) != 0;
+        rays.limit[r] = ask(r, Candidate<kRows>{leaves.bvh.items[first + i], leaf + i, count, met});
+      }
+      bundle.set_limit(r, rays.limit[r]);
+    }
+  };
+  counts.nodes += walk<F, FloatLanes<D>>(leaves.bvh, bundle, (1u << rays.size) - 1, visit);
+}
+
+// Of triangles and spheres. ray_of(r): the ray that rays[r] is.
+template <class F, class D, class RayOf, class Ask>
+[[gnu::always_inline]] inline void ask_all_of(const Prepared& prepared, BundleRays& rays, const RayOf& ray_of,
+                                              SignCounts& counts, const Ask& ask) {
+  const TriangleLeaves& triangles = prepared.triangles;
+  const SphereLeaves& spheres = prepared.spheres;
+  rays.fill_up();
+  if (!triangles.bvh.nodes.empty()) {
+    std::array<TriangleFilter<D>, Bundle::kCapacity> filters;
+    for (std::size_t r = 0; r < rays.size; ++r) filters[r] = TriangleFilter<D>(ray_of(r));
+    ask_leaves_of<F, D>(triangles, filters.data(), rays, counts, ask);
   }
-  const std::uint32_t all = (1u << questions.size()) - 1;
-  counts.nodes +=
-      walk<F>(leaves.bvh, bundle, all, [&](std::uint32_t first, std::uint32_t count, std::size_t r) {
-        RayQuestion& question = questions[r];
-        const double* leaf = leaves.leaf(first);
-        const LeafVerdict verdict = filters[r](leaf, count, question.best.t);
-        const auto dropped = count - static_cast<std::uint32_t>(std::popcount(verdict.may));
-        counts.tests += dropped;
-        counts.filtered += 3 * dropped;
-        for (std::uint32_t bits = verdict.may; bits != 0; bits &= bits - 1) {
-          const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
-          const Candidate<kRows> candidate{leaves.bvh.items[first + i], leaf + i, count,
-                                           (verdict.must >> i & 1) != 0};
-          if (candidate.primitive == question.except) continue;
-          const Hit hit = candidate.hit(prepared.scene, question.ray, question.after, counts);
-          if (hit.found() && before(hit, question.best)) question.best = hit;
-          bundle.limit[r] = bundle.rays[r].limit(question.best.t);
-        }
-      });
+  if (!spheres.bvh.nodes.empty()) {
+    std::array<SphereFilter<D>, Bundle::kCapacity> filters;
+    for (std::size_t r = 0; r < rays.size; ++r) filters[r] = SphereFilter<D>(ray_of(r), spheres.bvh.reach);
+    ask_leaves_of<F, D>(spheres, filters.data(), rays, counts, ask);
+  }
 }
 
 template <class F, class D>
 [[gnu::flatten]] void nearest_of_in_lanes(const Prepared& prepared, std::span<RayQuestion> questions,
                                           SignCounts& counts) {
-  const TriangleLeaves& triangles = prepared.triangles;
-  const SphereLeaves& spheres = prepared.spheres;
   for (std::size_t at = 0; at < questions.size(); at += Bundle::kCapacity) {
     const auto some = questions.subspan(at, std::min(Bundle::kCapacity, questions.size() - at));
-    if (!triangles.bvh.nodes.empty()) {
-      std::array<TriangleFilter<D>, Bundle::kCapacity> filters;
-      for (std::size_t r = 0; r < some.size(); ++r) filters[r] = TriangleFilter<D>(some[r].ray);
-      nearest_of_bundle<F>(prepared, triangles, some, filters, counts);
-    }
-    if (!spheres.bvh.nodes.empty()) {
-      std::array<SphereFilter<D>, Bundle::kCapacity> filters;
-      for (std::size_t r = 0; r < some.size(); ++r)
-        filters[r] = SphereFilter<D>(some[r].ray, spheres.bvh.reach);
-      nearest_of_bundle<F>(prepared, spheres, some, filters, counts);
-    }
+    BundleRays rays;
+    for (const RayQuestion& question : some) rays.add(question.ray, question.after.t, question.best.t);
+    const auto ray_of = [&](std::size_t r) -> const Ray& { return some[r].ray; };
+    ask_all_of<F, D>(prepared, rays, ray_of, counts, [&](std::size_t r, const auto& candidate) {
+      RayQuestion& question = some[r];
+      if (candidate.primitive == question.except) return question.best.t;
+      const Hit hit = candidate.hit(prepared.scene, question.ray, question.after, counts);
+      if (hit.found() && before(hit, question.best)) question.best = hit;
+      return question.best.t;
+    });
   }
+}
+
+// The hit of a candidate that casts a shadow and stands before the light.
+template <class Candidate>
+[[gnu::always_inline]] inline Hit blocking_hit(const Prepared& prepared, const Candidate& candidate,
+                                               const Ray& ray, const glm::dvec3* light, const Hit& start,
+                                               SignCounts& counts) {
+  if (!prepared.all_cast_shadows && !casts_shadow(prepared.scene, candidate.primitive)) return {};
+  const Hit hit = candidate.hit(prepared.scene, ray, start, counts);
+  return hit.found() && (!light || before_light(prepared.scene, hit, ray, *light, counts)) ? hit : Hit{};
 }
 
 template <class F, class D>
@@ -156,13 +182,27 @@ template <class F, class D>
   Hit found;
   const double limit = light ? 1 : std::numeric_limits<double>::infinity();
   ask_all<F, D>(prepared, ray, start.t, limit, counts, [&](const auto& candidate, double current) {
-    if (!prepared.all_cast_shadows && !casts_shadow(prepared.scene, candidate.primitive)) return current;
-    const Hit hit = candidate.hit(prepared.scene, ray, start, counts);
-    if (!hit.found() || (light && !before_light(prepared.scene, hit, ray, *light, counts))) return current;
-    found = hit;
-    return -1.0;
+    found = blocking_hit(prepared, candidate, ray, light, start, counts);
+    return found.found() ? -1.0 : current;
   });
   return found;
+}
+
+template <class F, class D>
+[[gnu::flatten]] void blocked_of_in_lanes(const Prepared& prepared, std::span<ShadowQuestion> questions,
+                                          const glm::dvec3& light, SignCounts& counts) {
+  for (std::size_t at = 0; at < questions.size(); at += Bundle::kCapacity) {
+    const auto some = questions.subspan(at, std::min(Bundle::kCapacity, questions.size() - at));
+    BundleRays rays;
+    for (const ShadowQuestion& question : some)
+      rays.add(question.ray, kRayStart.t, question.blocked ? -1 : 1);
+    const auto ray_of = [&](std::size_t r) -> const Ray& { return some[r].ray; };
+    ask_all_of<F, D>(prepared, rays, ray_of, counts, [&](std::size_t r, const auto& candidate) {
+      ShadowQuestion& question = some[r];
+      question.blocked = blocking_hit(prepared, candidate, question.ray, &light, kRayStart, counts).found();
+      return question.blocked ? -1.0 : 1.0;
+    });
+  }
 }
 
 template <class F, class D>
@@ -229,8 +269,9 @@ template <class F, class D>
 
 template <class F, class D>
 inline constexpr Kernels kKernels{
-    nearest_in_lanes<F, D>,      nearest_of_in_lanes<F, D>,   blocker_in_lanes<F, D>,
-    candidates_in_lanes<F, D>,   visit_leaves_in_lanes<F, D>, near_triangles_in_lanes<F, D>,
-    near_spheres_in_lanes<F, D>, inset_in_lanes<F, D>,        directions_in_lanes<D>};
+    nearest_in_lanes<F, D>,        nearest_of_in_lanes<F, D>,   blocker_in_lanes<F, D>,
+    blocked_of_in_lanes<F, D>,     candidates_in_lanes<F, D>,   visit_leaves_in_lanes<F, D>,
+    near_triangles_in_lanes<F, D>, near_spheres_in_lanes<F, D>, inset_in_lanes<F, D>,
+    directions_in_lanes<D>,        own_hits_in_lanes<D>};
 
 }  // namespace sidelight::raytrace

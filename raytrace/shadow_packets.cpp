@@ -78,15 +78,19 @@ void ShadowPackets::trace(const Light& light, const ShadowQueries& queries, std:
   if (asks == queries.asks.end()) return;
   // Most often one face will do, though some of the places lie beyond its edges.
   face_ = face_towards(queries[static_cast<std::size_t>(asks - queries.asks.begin())].from, light.position);
-  if (find_places(isa_, queries, face_, places_)) return trace_face(dark, counts);
-  for (int face = 0; face < 6; ++face) {
-    face_ = {face / 2, face % 2 == 0 ? 1.0 : -1.0, light.position};
-    find_places_behind(isa_, queries, face_, places_);
+  if (find_places(isa_, queries, face_, places_)) {
     trace_face(dark, counts);
+  } else {
+    for (int face = 0; face < 6; ++face) {
+      face_ = {face / 2, face % 2 == 0 ? 1.0 : -1.0, light.position};
+      find_places_behind(isa_, queries, face_, places_);
+      trace_face(dark, counts);
+    }
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      if (queries.asks[i] != 0 && max_norm(queries[i].from - light.position) < CubeFace::kLeastDepth)
+        leave(i);
   }
-  for (std::size_t i = 0; i < queries.size(); ++i)
-    if (queries.asks[i] != 0 && max_norm(queries[i].from - light.position) < CubeFace::kLeastDepth)
-      dark[i] = is_dark(i, counts);
+  trace_left(dark, counts);
 }
 
 // Of up to sixteen places from this one on.
@@ -195,15 +199,21 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vecto
   for (std::size_t i = 0; i < size; ++i)
     dark[static_cast<std::size_t>(number_[i])] = packet_.primitive[i] >= 0;
   for (std::size_t i = 0; i < size; ++i)
-    if (packet_.budget[i / kGroup] < 0 && packet_.primitive[i] < 0)
-      dark[static_cast<std::size_t>(number_[i])] = is_dark(static_cast<std::size_t>(number_[i]), counts);
+    if (packet_.primitive[i] < 0 && packet_.budget[i / kGroup] < 0)
+      leave(static_cast<std::size_t>(number_[i]));
 }
 
-// Alone.
-bool ShadowPackets::is_dark(std::size_t number, SignCounts& counts) const {
-  return blocker(prepared_, ray_to_light((*queries_)[number].from, *light_), &light_->position, counts,
-                 kRayStart, Precision::exact, isa_)
-      .found();
+// A ray that goes without a packet.
+void ShadowPackets::leave(std::size_t number) {
+  left_.push_back(static_cast<std::uint32_t>(number));
+  questions_.push_back({ray_to_light((*queries_)[number].from, *light_)});
+}
+
+void ShadowPackets::trace_left(std::vector<std::uint8_t>& dark, SignCounts& counts) {
+  find_blocked(prepared_, questions_, light_->position, counts, isa_);
+  for (std::size_t i = 0; i < left_.size(); ++i) dark[left_[i]] = questions_[i].blocked;
+  left_.clear();
+  questions_.clear();
 }
 
 void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "raytrace/kernels.h"
 #include "raytrace/packets.h"
 #include "raytrace/shadow_places.h"
 
@@ -43,7 +44,8 @@ class ShadowPackets {
   void trace_face(std::vector<std::uint8_t>& dark, SignCounts& counts);
   void sort_places();
   void trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark, SignCounts& counts);
-  bool is_dark(std::size_t number, SignCounts& counts) const;
+  void leave(std::size_t number);
+  void trace_left(std::vector<std::uint8_t>& dark, SignCounts& counts);
   static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
 
   const Prepared& prepared_;
@@ -58,6 +60,9 @@ class ShadowPackets {
   std::vector<Extent> groups_;
   Extent whole_;                          // of all groups
   std::span<const std::int32_t> number_;  // of the packet's rays
+  // Rays without a packet, and their numbers.
+  std::vector<ShadowQuestion> questions_;
+  std::vector<std::uint32_t> left_;
 };
 
 }  // namespace sidelight::raytrace

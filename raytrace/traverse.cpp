@@ -125,16 +125,10 @@ Hit nearest_beside(const Prepared& prepared, const Ray& ray, const Hit& after, s
 }
 
 void nearest_beside(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts, Isa isa) {
-  bool all_finite = true;
-  for (RayQuestion& question : questions) {
-    const auto& [ray, after, known, own] = question;
-    all_finite &= is_finite(ray);
-    if (is_finite(ray)) question.best = nearest_plane(prepared, ray, after, known, own, counts);
-  }
-  if (all_finite) return kernels_for(isa).nearest_of(prepared, questions, counts);
-  for (RayQuestion& question : questions)  // one by one, then
-    if (const auto& [ray, after, known, own] = question; is_finite(ray))
-      kernels_for(isa).nearest(prepared, ray, after, known, question.best, counts);
+  if (!prepared.planes.empty())
+    for (auto& [ray, after, known, best] : questions)
+      if (is_finite(ray)) best = nearest_plane(prepared, ray, after, known, best, counts);
+  kernels_for(isa).nearest_of(prepared, questions, counts);
 }
 
 Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
@@ -146,6 +140,15 @@ Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, S
         hit.found())
       return hit;
   return kernels_for(isa).blocker(prepared, ray, light, start, counts);
+}
+
+void find_blocked(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3& light,
+                  SignCounts& counts, Isa isa) {
+  for (const std::uint32_t primitive : prepared.planes)
+    for (auto& [ray, blocked] : questions)
+      if (!blocked && is_finite(ray))
+        blocked = blocking_hit<intersect>(prepared.scene, primitive, ray, &light, kRayStart, counts).found();
+  kernels_for(isa).blocked_of(prepared, questions, light, counts);
 }
 
 glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,

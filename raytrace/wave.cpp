@@ -2,6 +2,7 @@
 #include "raytrace/wave.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "common/picture/tile_pixels.h"
@@ -158,21 +159,46 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   level.cut_refracted.assign(size, 0.0);
 }
 
-// The nearest hits; not that of the surface at which a ray starts and is through.
+// What rays meet of the balls that they start at: a ray that goes on inside, the far side; else nothing.
+void Wave::find_own_hits(Level& level, RenderStats& stats) {
+  for (std::size_t i = 0; i < level.rays.size(); ++i) {
+    const WaveRay& ray = level.rays[i];
+    level.hits[i] = {};
+    if (ray.own == kNone) continue;
+    const PrimitiveRef ref = primitive_ref(scene_, ray.own);
+    if (ref.kind != ObjectKind::sphere) continue;
+    const Sphere& sphere = scene_.spheres[ref.index];
+    const std::size_t k = balls_.size++;
+    balls_.ray[k] = static_cast<std::uint32_t>(i);
+    put(balls_.origin, k, ray.path.ray.origin);
+    put(balls_.direction, k, ray.path.ray.direction);
+    put(balls_.center, k, sphere.center);
+    balls_.radius[k] = sphere.radius;
+    balls_.passes[k] = ray.passes;
+    if (balls_.size == BallBatch::kCapacity) take_own_hits(level, stats);
+  }
+  take_own_hits(level, stats);
+}
+
+void Wave::take_own_hits(Level& level, RenderStats& stats) {
+  kernels_for(isa_).own_hits(balls_);
+  stats.signs.tests += balls_.size;
+  for (std::size_t k = 0; k < balls_.size; ++k)
+    if (std::isfinite(balls_.t[k])) level.hits[balls_.ray[k]] = {balls_.t[k], level.rays[balls_.ray[k]].own};
+  balls_.size = 0;
+}
+
+// The nearest hits; not that of the surface at which a ray starts and is through: a flat one is not met again, a ball is
+// at its far side.
 void Wave::find_first_hits(Level& level, RenderStats& stats) {
   questions_.clear();
   asking_.clear();
+  find_own_hits(level, stats);
   for (std::size_t i = 0; i < level.rays.size(); ++i) {
     const WaveRay& ray = level.rays[i];
-    const Path& path = ray.path;
-    Hit own;  // a flat surface is not met again, a ball is at its far side
-    if (ray.own != kNone && primitive_ref(scene_, ray.own).kind == ObjectKind::sphere) {
-      own = intersect(scene_, ray.own, path.ray, path.start, stats.signs);
-      if (ray.passes && own.found()) own = intersect(scene_, ray.own, path.ray, own, stats.signs);
-      level.hits[i] = own;
-      if (own.found() && prepared_.secluded[primitive_ref(scene_, ray.own).index]) continue;
-    }
-    questions_.push_back({path.ray, path.start, ray.own, own});
+    const Hit& own = level.hits[i];
+    if (own.found() && prepared_.secluded[primitive_ref(scene_, ray.own).index]) continue;
+    questions_.push_back({ray.path.ray, ray.path.start, ray.own, own});
     asking_.push_back(static_cast<std::uint32_t>(i));
   }
   nearest_beside(prepared_, questions_, stats.signs, isa_);

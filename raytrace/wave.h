@@ -11,6 +11,7 @@
 
 #include "common/model/surface_batch.h"
 #include "common/picture/frame.h"
+#include "raytrace/ball_batch.h"
 #include "raytrace/clearings.h"
 #include "raytrace/enclosed.h"
 #include "raytrace/eye_packets.h"
@@ -93,6 +94,8 @@ class Wave {
   bool take_part(std::size_t depth);
   void find_hits(Level& level, bool eye, RenderStats& stats);
   void find_first_hits(Level& level, RenderStats& stats);
+  void find_own_hits(Level& level, RenderStats& stats);
+  void take_own_hits(Level& level, RenderStats& stats);
   Hit first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats);
   void find_surfaces(Level& level, bool eye, RenderStats& stats);
   void find_seen_surfaces(Level& level, RenderStats& stats);
@@ -150,6 +153,7 @@ class Wave {
   std::array<SurfaceBatch, 3> surfaces_;  // by ObjectKind
   ShadingBatch shading_;
   OpticsBatch optics_;
+  BallBatch balls_;
   std::array<Sender, OpticsBatch::kCapacity> senders_;  // entry by entry
   std::vector<HitBatch> batches_;  // of the level that is worked at, the first used_ of them
   std::size_t used_ = 0;

@@ -174,6 +174,46 @@ TEST_CASE("BVH: what rays of a bundle meet they meet alone, on every instruction
   CHECK(found > asked / 5);
 }
 
+TEST_CASE("BVH: shadow rays of a bundle are blocked where they are alone, on every instruction set") {
+  Random random(81);
+  std::uint64_t differing = 0, uneven = 0, blocked = 0, asked = 0;
+  for (const Placement& placement : kPlacements) {
+    Scene scene = random_scene(placement, random);
+    scene.materials.at(0).casts_shadow = &placement != &kPlacements[1];
+    const Prepared prepared(scene);
+    for (std::uint64_t left = 1 + tier_count("rays_per_case") / 2000; left > 0; --left) {
+      std::vector<raytrace::ShadowQuestion> questions(1 + random.below(40));
+      const Ray ray = random_ray(scene, placement, random);
+      const glm::dvec3 light = ray.origin + random.log_uniform(0.1, 3) * ray.direction;
+      const double apart = random.log_uniform(1e-9, 3) * placement.size;
+      for (auto& question : questions) {
+        const glm::dvec3 origin = ray.origin + apart * random.in_box(1);
+        question.ray = make_ray(origin, light - origin);
+        if (random.uniform() < 0.02) question.ray.direction.x = std::nan("");
+      }
+      std::optional<SignCounts> first;
+      for (const Isa isa : kIsas) {
+        if (!machine_has(isa)) continue;
+        auto bundled = questions;
+        SignCounts counts, alone;
+        find_blocked(prepared, bundled, light, counts, isa);
+        for (std::size_t i = 0; i < questions.size(); ++i) {
+          const bool expected =
+              blocker(prepared, questions[i].ray, &light, alone, kRayStart, Precision::exact, isa).found();
+          differing += bundled[i].blocked != expected;
+          blocked += expected;
+          ++asked;
+        }
+        if (!first) first = counts;
+        uneven += !same(*first, counts);
+      }
+    }
+  }
+  CHECK(differing == 0);
+  CHECK(uneven == 0);
+  CHECK(blocked > asked / 10);
+}
+
 TEST_CASE("BVH: a ray that starts in the plane of a floor does not meet it") {
   Random random(78);
   const Scene scene = random_scene(kPlacements[0], random);
