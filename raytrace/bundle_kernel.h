@@ -126,10 +126,10 @@ template <class F>
       const ChildLanes<F> of_ray = meet_lanes<F>(node, lane, bundle.ray(r), bundle.least[r], bundle.limit[r]);
       entry = select<F>(of_ray.met, lane_min<F>(of_ray.near, entry), entry);
       by = by | select<I>(integer_mask<F>(of_ray.met), I(1 << r), I(0));
+      met.children |= mask_bits<F>(of_ray.met) << lane;
     }
     store<F>(entry, met.entry.data() + lane);
     store<I>(by, met.rays.data() + lane);
-    met.children |= mask_bits<F>(real_mask<F>(by != I(0))) << lane;
   }
 }
 
