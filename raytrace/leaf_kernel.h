@@ -6,6 +6,7 @@
 
 #include "common/math/lane_ops.h"
 #include "common/model/visibility.h"
+#include "raytrace/bvh.h"
 
 namespace sidelight::raytrace {
 
@@ -13,6 +14,9 @@ namespace sidelight::raytrace {
 struct LeafVerdict {
   std::uint32_t may = 0, must = 0;
 };
+
+// `count` of a leaf, said so that a vector of eight is known to be enough.
+inline std::uint32_t lanes_used(std::uint32_t count) { return count < Bvh::kMaxLeaf ? count : Bvh::kMaxLeaf; }
 
 inline constexpr double kUnit = 0x1p-53;  // unit roundoff
 // Depths of visibility.h are good to 2^-18.
@@ -39,18 +43,24 @@ class TriangleFilter {
     const double x = magnitude(ray.direction.x), y = magnitude(ray.direction.y),
                  z = magnitude(ray.direction.z);
     const int axis_z = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
-    axis_ = {(axis_z + 1) % 3, (axis_z + 2) % 3, axis_z};
-    for (std::size_t i = 0; i < 3; ++i) origin_[i] = ray.origin[axis_[i]];
+    const int axis_x = axis_z == 2 ? 0 : axis_z + 1, axis_y = axis_z == 0 ? 2 : axis_z - 1;
+    axis_ = {static_cast<std::size_t>(axis_x), static_cast<std::size_t>(axis_y),
+             static_cast<std::size_t>(axis_z)};
+    for (std::size_t i = 0; i < 3; ++i) origin_[i] = ray.origin[static_cast<int>(axis_[i])];
     inverse_z_ = 1 / ray.direction[axis_z];
-    shear_x_ = ray.direction[axis_[0]] * inverse_z_;
-    shear_y_ = ray.direction[axis_[1]] * inverse_z_;
+    doubt_z_ = 1.5 * magnitude(inverse_z_);
+    shear_x_ = ray.direction[axis_x] * inverse_z_;
+    shear_y_ = ray.direction[axis_y] * inverse_z_;
   }
 
   // Of the `count` triangles of a leaf, which are met at a depth in (0, limit].
   LeafVerdict operator()(const double* leaf, std::uint32_t count, double limit) const {
+    const std::size_t rows = count;
     LeafVerdict verdict;
-    for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>) {
-      const LeafVerdict of_lanes = meet(leaf + lane, count, limit);
+    for (std::uint32_t lane = 0; lane < lanes_used(count); lane += kLanes<D>) {
+      const double* first = leaf + lane;
+      const LeafVerdict of_lanes =
+          meet({first + axis_[0] * rows, first + axis_[1] * rows, first + axis_[2] * rows}, 3 * rows, limit);
       verdict.may |= of_lanes.may << lane;
       verdict.must |= of_lanes.must << lane;
     }
@@ -60,21 +70,20 @@ class TriangleFilter {
   }
 
  private:
-  LeafVerdict meet(const double* leaf, std::uint32_t count, double limit) const {
-    D x[3], y[3], z[3];
-    D size(0), depth(0), widest(0);
-    for (int k = 0; k < 3; ++k) {
-      const auto a = [&](std::size_t i) {
-        return load<D>(leaf + static_cast<std::uint32_t>(3 * k + axis_[i]) * count) - D(origin_[i]);
-      };
+  // from[i]: that axis of the first corner, those of the next ones each `corner` further on.
+  LeafVerdict meet(const std::array<const double*, 3>& from, std::size_t corner, double limit) const {
+    D x[3], y[3], z[3], m[3], far[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = [&](std::size_t i) { return load<D>(from[i] + k * corner) - D(origin_[i]); };
       z[k] = a(2);
       x[k] = a(0) - D(shear_x_) * z[k];
       y[k] = a(1) - D(shear_y_) * z[k];
-      const D m = lane_abs<D>(x[k]) + lane_abs<D>(y[k]), far = lane_abs<D>(z[k]);
-      size = size + m;
-      depth = depth + far;
-      widest = lane_max<D>(widest, D(3) * far + m);
+      m[k] = lane_abs<D>(x[k]) + lane_abs<D>(y[k]);
+      far[k] = lane_abs<D>(z[k]);
     }
+    const D size = (m[0] + m[1]) + m[2], depth = (far[0] + far[1]) + far[2];
+    const auto wide = [&](std::size_t k) { return D(3) * far[k] + m[k]; };
+    const D widest = lane_max<D>(lane_max<D>(wide(0), wide(1)), wide(2));
     const D slack = D(4 * kUnit) * widest;
     const D error = slack * (size + slack);
     const D e0 = x[1] * y[2] - x[2] * y[1], e1 = x[2] * y[0] - x[0] * y[2], e2 = x[0] * y[1] - x[1] * y[0];
@@ -82,7 +91,7 @@ class TriangleFilter {
 
     const D sum = (e0 + e1) + e2, depths = ((e0 * z[0] + e1 * z[1]) + e2 * z[2]) * D(inverse_z_);
     const D turned = select<D>(sum < D(0), -depths, depths);  // t |sum|
-    const D doubt = error * depth * D(1.5 * (inverse_z_ < 0 ? -inverse_z_ : inverse_z_));
+    const D doubt = error * depth * D(doubt_z_);
     const D total = lane_abs<D>(sum), margin = D(4) * error;
     const Mask<D> apart = low < -error && high > error;  // of different sign
     const Mask<D> behind = turned<-doubt, beyond = turned - doubt> D(limit * kDepthSlack) * (total + margin);
@@ -90,9 +99,9 @@ class TriangleFilter {
     return {mask_bits<D>(!(apart || (total > margin && (behind || beyond)))), mask_bits<D>(met)};
   }
 
-  std::array<int, 3> axis_;
+  std::array<std::size_t, 3> axis_;
   std::array<double, 3> origin_;
-  double shear_x_, shear_y_, inverse_z_;
+  double shear_x_, shear_y_, inverse_z_, doubt_z_;
 };
 
 // Rounding. A bounds all components of f = o - c and the radius. The point of the line that is nearest to the centre is
@@ -124,7 +133,7 @@ class SphereFilter {
   // Of the `count` spheres of a leaf, which may be met at a depth in (0, limit].
   LeafVerdict operator()(const double* leaf, std::uint32_t count, double limit) const {
     std::uint32_t bits = 0;
-    for (std::uint32_t lane = 0; lane < count; lane += kLanes<D>)
+    for (std::uint32_t lane = 0; lane < lanes_used(count); lane += kLanes<D>)
       bits |= may_meet(leaf + lane, count, limit) << lane;
     return {bits & ((1u << count) - 1), 0};
   }

@@ -107,15 +107,15 @@ template <class F, class D, class Filter, int kRows, class Ask>
     const double* leaf = leaves.leaf(first);
     // All verdicts before anything is done about one, so that none waits for another.
     std::array<LeafVerdict, Bundle::kCapacity> verdicts;
-    std::uint32_t asking = 0;
+    std::uint32_t asking = 0, dropped = 0;
     for (; by != 0; by &= by - 1) {
       const auto r = static_cast<std::size_t>(std::countr_zero(by));
-      verdicts[r] = filters[r](leaf, count, rays.limit[r]);
-      asking |= std::uint32_t{verdicts[r].may != 0} << r;
-      const auto dropped = count - static_cast<std::uint32_t>(std::popcount(verdicts[r].may));
-      counts.tests += dropped;
-      counts.filtered += 3 * dropped;
+      const LeafVerdict verdict = verdicts[r] = filters[r](leaf, count, rays.limit[r]);
+      asking |= std::uint32_t{verdict.may != 0} << r;
+      dropped += count - static_cast<std::uint32_t>(std::popcount(verdict.may));
     }
+    counts.tests += dropped;
+    counts.filtered += 3 * dropped;
     for (; asking != 0; asking &= asking - 1) {
       const auto r = static_cast<std::size_t>(std::countr_zero(asking));
       for (std::uint32_t bits = verdicts[r].may; bits != 0 && rays.limit[r] >= 0; bits &= bits - 1) {
