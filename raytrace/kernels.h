@@ -47,7 +47,7 @@ struct RayQuestion {
   Hit best;
 };
 
-// Whether something blocks a ray to a point light, after kRayStart; nothing is asked where that is known already.
+// Whether something blocks a ray to a light, after kRayStart; nothing is asked where that is known already.
 struct ShadowQuestion {
   Ray ray;
   bool blocked = false;
@@ -63,8 +63,8 @@ struct Kernels {
   // blocker() of prepared.h.
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                  SignCounts& counts);
-  // Whether it finds something, for many rays to one point light: likewise.
-  void (*blocked_of)(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3& light,
+  // Whether it finds something, for many rays to one light: likewise.
+  void (*blocked_of)(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3* light,
                      SignCounts& counts);
   // Visits all primitives that may be met at a depth from `from` to `limit`.
   void (*candidates)(const Prepared& prepared, const Ray& ray, double from, double limit, SignCounts& counts,

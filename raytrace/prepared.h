@@ -77,9 +77,9 @@ void nearest_beside(const Prepared& prepared, std::span<RayQuestion> questions, 
 Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
             const Hit& start = kRayStart, Precision precision = Precision::exact, Isa isa = best_isa());
 
-// Whether there is a blocker of each of many rays to one point light, neighbours of which should have much the same way.
+// Whether there is a blocker of each of many rays to one light, neighbours of which should have much the same way.
 struct ShadowQuestion;
-void find_blocked(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3& light,
+void find_blocked(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3* light,
                   SignCounts& counts, Isa isa);
 
 // Where rays start that leave `place`, at which `ray` met `hit`: leaving_point of all that stands near.

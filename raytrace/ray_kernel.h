@@ -190,17 +190,18 @@ template <class F, class D>
 
 template <class F, class D>
 [[gnu::flatten]] void blocked_of_in_lanes(const Prepared& prepared, std::span<ShadowQuestion> questions,
-                                          const glm::dvec3& light, SignCounts& counts) {
+                                          const glm::dvec3* light, SignCounts& counts) {
+  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
   for (std::size_t at = 0; at < questions.size(); at += Bundle::kCapacity) {
     const auto some = questions.subspan(at, std::min(Bundle::kCapacity, questions.size() - at));
     BundleRays rays;
     for (const ShadowQuestion& question : some)
-      rays.add(question.ray, kRayStart.t, question.blocked ? -1 : 1);
+      rays.add(question.ray, kRayStart.t, question.blocked ? -1 : limit);
     const auto ray_of = [&](std::size_t r) -> const Ray& { return some[r].ray; };
     ask_all_of<F, D>(prepared, rays, ray_of, counts, [&](std::size_t r, const auto& candidate) {
       ShadowQuestion& question = some[r];
-      question.blocked = blocking_hit(prepared, candidate, question.ray, &light, kRayStart, counts).found();
-      return question.blocked ? -1.0 : 1.0;
+      question.blocked = blocking_hit(prepared, candidate, question.ray, light, kRayStart, counts).found();
+      return question.blocked ? -1.0 : limit;
     });
   }
 }

@@ -13,9 +13,9 @@ namespace {
 // Places are sorted where groups as they come have more than this times the area of all.
 constexpr float kApart = 1.5f;
 
-// What a group may do before its rays go alone: rays too far apart have little in common. In steps of RayPacket::budget,
-// that is about as much as they would do alone.
-constexpr int kGroupWork = 64;
+// What a group may do before its rays leave the packet: rays too far apart have little in common. In steps of
+// RayPacket::budget, of points that the eye sees and of all others.
+constexpr int kGroupWork = 64, kSecondaryGroupWork = 24;
 
 // Every second bit of eight.
 std::int32_t spread(std::int32_t x) {
@@ -72,6 +72,12 @@ void ShadowPackets::trace(const Light& light, const ShadowQueries& queries, std:
   light_ = &light;
   queries_ = &queries;
   dark.assign(queries.size(), 0);
+  if (light.directional) {
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      if (queries.asks[i] != 0) leave(i);
+    trace_left(dark, counts);
+    return;
+  }
   packet_.origin = light.position;
   packet_.reach = prepared_.reach_from(light.position);
   const auto asks = std::find_if(queries.asks.begin(), queries.asks.end(), [](auto ask) { return ask != 0; });
@@ -194,7 +200,7 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vecto
     packet_.least_w[g - first] = groups_[g].least_per_depth;
   }
   start(packet_);
-  packet_.budget.fill(kGroupWork);
+  packet_.budget.fill(queries_->seen_by_eye ? kGroupWork : kSecondaryGroupWork);
   trace_packet(isa_, prepared_, packet_, counts);
   for (std::size_t i = 0; i < size; ++i)
     dark[static_cast<std::size_t>(number_[i])] = packet_.primitive[i] >= 0;
@@ -210,7 +216,7 @@ void ShadowPackets::leave(std::size_t number) {
 }
 
 void ShadowPackets::trace_left(std::vector<std::uint8_t>& dark, SignCounts& counts) {
-  find_blocked(prepared_, questions_, light_->position, counts, isa_);
+  find_blocked(prepared_, questions_, light_->directional ? nullptr : &light_->position, counts, isa_);
   for (std::size_t i = 0; i < left_.size(); ++i) dark[left_[i]] = questions_[i].blocked;
   left_.clear();
   questions_.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shadow rays of one point light, from the light's end: seen from there, the points of a tile are rays with a common
-// origin (packets.h), on a face of a cube around it. Which points are dark is what blocker() says of each, every one.
+// Shadow rays of one light. Of a point light from its end: seen from there, the points of a tile are rays with a common
+// origin (packets.h), on a face of a cube around it. Those that have little in common, and all of a directional light, go
+// as bundles do. Which points are dark is what blocker() says of each, every one.
 //
 // I. Wald, C. Benthin, M. Wagner, P. Slusallek, "Interactive Rendering with Coherent Ray Tracing", 2001, section 4.3
 // (shadow rays traced from the light); here sorted where neighbours lie too far apart.
@@ -21,7 +22,7 @@ class ShadowPackets {
  public:
   ShadowPackets(const Prepared& prepared, Isa isa);
 
-  // dark[k] != 0 where queries[k] asks and something blocks it. The light is not directional.
+  // dark[k] != 0 where queries[k] asks and something blocks it.
   void trace(const Light& light, const ShadowQueries& queries, std::vector<std::uint8_t>& dark,
              SignCounts& counts);
 

@@ -24,6 +24,7 @@ class ShadowQueries {
   std::vector<double> x, y, z;     // ShadowQuery::from
   std::vector<std::int32_t> own;   // ShadowQuery::own, -1 for kNone
   std::vector<std::int32_t> asks;  // not 0 where the light is to be asked
+  bool seen_by_eye = true;         // else by secondary rays: then neighbours lie farther apart
 
   std::size_t size() const { return asks.size(); }
   // To a number of queries, rounded up to whole lanes; those that are added ask nothing.

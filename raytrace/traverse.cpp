@@ -142,12 +142,12 @@ Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, S
   return kernels_for(isa).blocker(prepared, ray, light, start, counts);
 }
 
-void find_blocked(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3& light,
+void find_blocked(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3* light,
                   SignCounts& counts, Isa isa) {
   for (const std::uint32_t primitive : prepared.planes)
     for (auto& [ray, blocked] : questions)
       if (!blocked && is_finite(ray))
-        blocked = blocking_hit<intersect>(prepared.scene, primitive, ray, &light, kRayStart, counts).found();
+        blocked = blocking_hit<intersect>(prepared.scene, primitive, ray, light, kRayStart, counts).found();
   kernels_for(isa).blocked_of(prepared, questions, light, counts);
 }
 

@@ -21,8 +21,9 @@ void Wave::add_lights(const Level& level, RenderStats& stats) {
 void Wave::find_queries(const Level& level) {
   constexpr std::size_t kCapacity = ShadingBatch::kCapacity;
   queries_.resize(used_ * kCapacity);
+  queries_.seen_by_eye = level.rays.empty();
   // Not of eye rays, most of which travel in the open.
-  const bool may_enclose = !level.rays.empty() && !prepared_.solids.empty();
+  const bool may_enclose = !queries_.seen_by_eye && !prepared_.solids.empty();
   enclosing_.resize(may_enclose ? queries_.size() : 0);
   for (std::size_t b = 0, first = 0; b < used_; ++b, first += kCapacity) {
     const HitBatch& batch = batches_[b];
@@ -45,16 +46,7 @@ void Wave::find_queries(const Level& level) {
 void Wave::find_shadows(std::size_t light, RenderStats& stats) {
   const Light& source = scene_.lights[light];
   find_asking(light, stats);
-  if (source.directional) {
-    dark_.assign(queries_.size(), 0);
-    for (std::size_t i = 0; i < queries_.size(); ++i)
-      if (queries_.asks[i] != 0)
-        dark_[i] = blocker(prepared_, ray_to_light(queries_[i].from, source), nullptr, stats.signs, kRayStart,
-                           Precision::exact, isa_)
-                       .found();
-  } else {
-    shadow_packets_.trace(source, queries_, dark_, stats.signs);
-  }
+  shadow_packets_.trace(source, queries_, dark_, stats.signs);
   for (std::size_t b = 0, first = 0; b < used_; ++b, first += ShadingBatch::kCapacity) {
     ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
     for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)

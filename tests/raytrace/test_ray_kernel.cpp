@@ -185,10 +185,11 @@ TEST_CASE("BVH: shadow rays of a bundle are blocked where they are alone, on eve
       std::vector<raytrace::ShadowQuestion> questions(1 + random.below(40));
       const Ray ray = random_ray(scene, placement, random);
       const glm::dvec3 light = ray.origin + random.log_uniform(0.1, 3) * ray.direction;
+      const bool directional = random.uniform() < 0.3;
       const double apart = random.log_uniform(1e-9, 3) * placement.size;
       for (auto& question : questions) {
         const glm::dvec3 origin = ray.origin + apart * random.in_box(1);
-        question.ray = make_ray(origin, light - origin);
+        question.ray = make_ray(origin, directional ? ray.direction : light - origin);
         if (random.uniform() < 0.02) question.ray.direction.x = std::nan("");
       }
       std::optional<SignCounts> first;
@@ -196,10 +197,11 @@ TEST_CASE("BVH: shadow rays of a bundle are blocked where they are alone, on eve
         if (!machine_has(isa)) continue;
         auto bundled = questions;
         SignCounts counts, alone;
-        find_blocked(prepared, bundled, light, counts, isa);
+        find_blocked(prepared, bundled, directional ? nullptr : &light, counts, isa);
         for (std::size_t i = 0; i < questions.size(); ++i) {
-          const bool expected =
-              blocker(prepared, questions[i].ray, &light, alone, kRayStart, Precision::exact, isa).found();
+          const bool expected = blocker(prepared, questions[i].ray, directional ? nullptr : &light, alone,
+                                        kRayStart, Precision::exact, isa)
+                                    .found();
           differing += bundled[i].blocked != expected;
           blocked += expected;
           ++asked;
