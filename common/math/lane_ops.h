@@ -78,6 +78,9 @@ template <class F>
   static_assert(kLanes<F> <= 32);
   if constexpr (kLanes<F> == 1)
     return mask ? 1 : 0;
+  else if constexpr (kLanes<F> <= 8)
+    // GCC 12 may keep such a mask in memory as one byte and read four.
+    return static_cast<std::uint8_t>(mask.__to_bitset().to_ulong());
   else
     return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
 }
