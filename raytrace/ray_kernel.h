@@ -166,6 +166,11 @@ template <class F, class D>
   }
 }
 
+// Of a light along its shadow rays.
+[[gnu::always_inline]] inline double depth_of(const glm::dvec3* light) {
+  return light ? 1 : std::numeric_limits<double>::infinity();
+}
+
 // The hit of a candidate that casts a shadow and stands before the light.
 template <class Candidate>
 [[gnu::always_inline]] inline Hit blocking_hit(const Prepared& prepared, const Candidate& candidate,
@@ -180,7 +185,7 @@ template <class F, class D>
 [[gnu::flatten]] Hit blocker_in_lanes(const Prepared& prepared, const Ray& ray, const glm::dvec3* light,
                                       const Hit& start, SignCounts& counts) {
   Hit found;
-  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
+  const double limit = depth_of(light);
   ask_all<F, D>(prepared, ray, start.t, limit, counts, [&](const auto& candidate, double current) {
     found = blocking_hit(prepared, candidate, ray, light, start, counts);
     return found.found() ? -1.0 : current;
@@ -191,7 +196,7 @@ template <class F, class D>
 template <class F, class D>
 [[gnu::flatten]] void blocked_of_in_lanes(const Prepared& prepared, std::span<ShadowQuestion> questions,
                                           const glm::dvec3* light, SignCounts& counts) {
-  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
+  const double limit = depth_of(light);
   for (std::size_t at = 0; at < questions.size(); at += Bundle::kCapacity) {
     const auto some = questions.subspan(at, std::min(Bundle::kCapacity, questions.size() - at));
     BundleRays rays;
