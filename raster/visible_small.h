@@ -146,7 +146,7 @@ void for_each_vector(const ScreenSpace& space, const SmallTriangles<F>& of, cons
   const I x0 = load<I>(of.x0.data()), y0 = load<I>(of.y0.data());
   const I first = x0 >> kWide, last = (load<I>(of.x1.data()) - I(1)) >> kWide;
   const I last_row = (load<I>(of.y1.data()) - I(1)) >> kHigh;
-  const I lanes = generate<I>([](int lane) { return lane; });
+  const I lanes = lane_numbers<I>();
   I column = first, row = y0 >> kHigh;
   for (Mask<F> left = triangles; any<F>(left); left = left && real_mask<F>(row <= last_row)) {
     if (size + kLanes < F >> kMost) draw_all();

@@ -12,10 +12,6 @@
 
 namespace sidelight::raytrace {
 
-// Floats beside doubles D, lane for lane.
-template <class D>
-using FloatBeside = decltype(to_float<D>(D()));
-
 // Rays in lanes D as the float boxes see them: o relative to Bvh::center, d scaled by a power of two to a largest
 // component in [1, 2), depths by the inverse. Of rays that are not finite, or have no direction, nothing is said.
 //
@@ -127,7 +123,8 @@ template <class F>
   }
 }
 
-// All leaves met at a depth from `from`, or from 0, to `limit`. Depth first, nearer children first. Leaf: double(first, count, limit).
+// All leaves met at a depth from `from`, or from 0, to `limit`. Depth first, nearer children first. Leaf:
+// double(first, count, limit).
 template <class F, class Leaf>
 [[gnu::always_inline]] inline std::uint64_t walk(const Bvh& bvh, const Ray& arriving, double from,
                                                  double limit, const Leaf& leaf) {

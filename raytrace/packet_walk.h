@@ -134,7 +134,7 @@ constexpr std::int32_t kLeafWork = std::is_same_v<Tree, SphereLeaves> ? 4 : 1;
 template <class F>
 Groups spend(RayPacket& p, Groups groups, std::int32_t work) {
   using I = Ints<F>;
-  const I lanes = generate<I>([](int lane) { return lane; });
+  const I lanes = lane_numbers<I>();
   const Groups over = some_of<F>(groups, [&](std::size_t g) {
     const I bit = (I(static_cast<std::int32_t>(groups >> g)) >> lanes) & I(1);
     const I budget = load<I>(&p.budget[g]) - bit * I(work);

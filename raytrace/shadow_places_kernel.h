@@ -13,8 +13,7 @@ namespace sidelight::raytrace {
 // Of a mask of doubles, that of the floats beside them.
 template <class D>
 auto beside(const Mask<D>& mask) {
-  const auto ones = to_float<D>(select<D>(mask, D(1), D(0)));
-  return ones > decltype(to_float<D>(D{}))(0);
+  return to_float<D>(select<D>(mask, D(1), D(0))) > FloatBeside<D>(0);
 }
 
 // Which points lie behind a face: that of their greatest coordinate, the first of equals.
@@ -30,11 +29,11 @@ Mask<D> is_behind(const CubeFace& face, const std::array<D, 3>& p) {
 template <class D>
 std::size_t find_places_in_lanes(const ShadowQueries& queries, const CubeFace& face, bool all,
                                  ShadowPlaces& places) {
-  using F = decltype(to_float<D>(D{}));
+  using F = FloatBeside<D>;
   using I = Ints<F>;
   const std::array<const double*, 3> from{queries.x.data(), queries.y.data(), queries.z.data()};
   const auto axis = static_cast<std::size_t>(face.axis);
-  const I lanes = generate<I>([](int lane) { return lane; });
+  const I lanes = lane_numbers<I>();
   const D wide(CubeFace::kWide);
   std::size_t size = 0;
   for (std::size_t i = 0; i < queries.size(); i += kLanes<D>) {

@@ -153,4 +153,8 @@ F to_double(const Floats& x) {
     return stdx::static_simd_cast<F>(x);
 }
 
+// Floats beside doubles F, lane for lane.
+template <class F>
+using FloatBeside = decltype(to_float<F>(F{}));
+
 }  // namespace sidelight
