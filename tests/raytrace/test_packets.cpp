@@ -113,7 +113,7 @@ bool faces_light(const Scene& scene, const ShadowQuery& query, const Light& ligh
     on = scene.spheres[ref.index].center;
   }
   const double from_side = glm::dot(query.from - on, normal);
-  const double light_side = glm::dot(light.position - query.from, normal);
+  const double light_side = glm::dot(raytrace::ray_to_light(query.from, light).direction, normal);
   return from_side * light_side > 0;
 }
 
@@ -157,10 +157,11 @@ Counts check_eye(const Prepared& prepared, const Camera& camera, Isa isa) {
 }
 
 Counts check_shadows(const Prepared& prepared, const Light& light, const std::vector<ShadowQuery>& queries,
-                     Isa isa) {
+                     bool seen_by_eye, Isa isa) {
   Counts result;
   SignCounts counts;
   raytrace::ShadowQueries asked;
+  asked.seen_by_eye = seen_by_eye;
   asked.resize(queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
     asked.set(i, queries[i]);
@@ -175,7 +176,8 @@ Counts check_shadows(const Prepared& prepared, const Light& light, const std::ve
       continue;
     }
     const Ray ray = raytrace::ray_to_light(queries[i].from, light);
-    const bool expected = blocker(prepared, ray, &light.position, counts).found();
+    const bool expected =
+        blocker(prepared, ray, light.directional ? nullptr : &light.position, counts).found();
     ++result.asked;
     result.different += (dark[i] != 0) != expected;
     result.positive += expected;
@@ -196,11 +198,13 @@ Counts check_all(const Drawn& drawn, std::uint64_t seed) {
     std::vector<ShadowQuery> queries = seen_places(prepared, camera);
     for (int i = 0; i < 300; ++i) queries.push_back({place(drawn, random, 40), kNone});
     const std::array lights{lamp(place(drawn, random, 20), 1), lamp(place(drawn, random, 200), 1),
-                            lamp(queries.back().from, 1), lamp(drawn.center + 1e7 * random.direction(), 1)};
+                            lamp(queries.back().from, 1), lamp(drawn.center + 1e7 * random.direction(), 1),
+                            sun(random.direction(), 1)};
     for (const Isa isa : kIsas) {
       if (!machine_has(isa)) continue;
       eye += check_eye(prepared, camera, isa);
-      for (const Light& light : lights) shadow += check_shadows(prepared, light, queries, isa);
+      for (const Light& light : lights)
+        shadow += check_shadows(prepared, light, queries, random.uniform() < 0.5, isa);
     }
   }
   CHECK(eye.different == 0);
@@ -246,7 +250,7 @@ TEST_CASE("packets are nearest and blocker, ray by ray: vertices on rays") {
     for (const Isa isa : kIsas) {
       if (!machine_has(isa)) continue;
       eye += check_eye(prepared, camera, isa);
-      shadow += check_shadows(prepared, lamp({3, 20, 5}, 1), queries, isa);
+      shadow += check_shadows(prepared, lamp({3, 20, 5}, 1), queries, true, isa);
     }
   }
   CHECK(eye.different == 0);
