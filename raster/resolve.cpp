@@ -23,7 +23,7 @@ void interleave(const ShadingBatch::Rgb& from, std::size_t first, std::size_t co
 }
 
 // What surfaces are made of: of a few megabytes all stays near from frame to frame, and to ask for it costs more than it
-// brings (mesh-69k, spheres: 0.2 ms a frame; mesh-870k gains 0.7).
+// brings (README.md).
 bool too_large_for_caches(const Scene& scene) {
   const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
   return bytes(scene.positions) + bytes(scene.normals) + bytes(scene.triangles) > std::size_t{8} << 20;

@@ -14,9 +14,9 @@ class EyePackets {
  public:
   EyePackets(const Prepared& prepared, const Camera& camera, Isa isa);
 
-  // Of the samples [X0, X0 + columns) x [Y0, Y0 + rows), in this class's order(): the primitive that nearest() finds, its depth left
-  // out; and whether nothing else stands near to where the ray meets it (place.h, stands_near()), for certain, as long as
-  // that is within 16 reach().
+  // Of the samples [X0, X0 + columns) x [Y0, Y0 + rows), in this class's order(): the primitive that nearest() finds,
+  // its depth left out; and whether nothing else stands near to where the ray meets it (place.h, stands_near()), for
+  // certain, as long as that is within 16 reach().
   void trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& hits, std::vector<std::uint8_t>& alone,
              SignCounts& counts);
   // The order of the packets' rays, neighbours together, of that many samples: their numbers, counted row by row.
