@@ -87,16 +87,22 @@ void TileResolve::shade_samples(bool known_t, SignCounts& counts) {
 // Where the primitive changes in a row, and where a row starts. (No branch: changes are hard to foresee.)
 void TileResolve::find_runs() {
   run_start_.resize(samples() + 1);
+  run_of_.resize(samples());
   const auto row = static_cast<std::uint32_t>(columns()), size = static_cast<std::uint32_t>(samples());
   std::size_t runs = 0;
   for (std::uint32_t start = 0; start < size; start += row) {
     run_start_[runs++] = start;
     std::uint32_t unlike = 0;
     for (std::uint32_t i = start; i < start + row; ++i) unlike |= primitive_[i] ^ primitive_[start];
-    if (unlike == 0) continue;
+    if (unlike == 0) {
+      std::fill_n(&run_of_[start], row, static_cast<std::uint32_t>(runs - 1));
+      continue;
+    }
+    run_of_[start] = static_cast<std::uint32_t>(runs - 1);
     for (std::uint32_t i = start + 1; i < start + row; ++i) {
       run_start_[runs] = i;
       runs += primitive_[i] != primitive_[i - 1];
+      run_of_[i] = static_cast<std::uint32_t>(runs - 1);
     }
   }
   run_start_[runs] = size;
@@ -141,8 +147,10 @@ std::size_t TileResolve::shade_row(int row, std::size_t run, bool known_t, SignC
       const Run now{left.column, row, batch.size, std::min(batch.room(), left.count)};
       const std::size_t i = index(now.column, row);
       if (known_t) std::copy_n(&known_t_[i], now.count, &batch.t[static_cast<std::size_t>(now.entry)]);
-      batch.add(camera_.column_factor(n_ * pixels_.x0 + now.column),
-                camera_.row_factor(n_ * pixels_.y0 + row), &primitive_[i], now.count);
+      const std::size_t to = batch.add(camera_.column_factor(n_ * pixels_.x0 + now.column),
+                                       camera_.row_factor(n_ * pixels_.y0 + row), &run_of_[i], now.count);
+      for (std::size_t r = to; r < static_cast<std::size_t>(batch.runs); ++r)
+        batch.primitive[r] = primitive_[run_start_[run_of_[i] + (r - to)]];
       collected.runs.push_back(now);
       left.column += now.count;
       left.count -= now.count;
@@ -171,7 +179,7 @@ void TileResolve::flush(Collected& collected, SignCounts& counts) {
   sidelight::shade(isa_, prepared_.tables, shading_, want_parts_);
   for (const Run& run : collected.runs) keep(collected.batch, run);
   collected.runs.clear();
-  collected.batch.size = 0;
+  collected.batch.clear();
 }
 
 // What has been found of a run.

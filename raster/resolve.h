@@ -88,7 +88,8 @@ class TileResolve {
   // Of each sample, row by row on the lattice. What is not wanted is empty, or holds what came before.
   const std::uint32_t* primitive_ = nullptr;
   std::vector<std::uint32_t> kept_primitive_, tests_;
-  std::vector<std::uint32_t> run_start_;  // of runs_ runs of one primitive in a row; and the end of the last
+  // Of runs_ runs of one primitive in a row, where they start, and the end of the last; of each sample its run.
+  std::vector<std::uint32_t> run_start_, run_of_;
   std::size_t runs_ = 0;
   std::size_t background_ = 0;  // so many samples, from the first, are known to be set to background
   std::vector<double> known_t_, t_;

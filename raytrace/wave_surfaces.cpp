@@ -28,11 +28,10 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(find(hit.primitive).kind)];
     const auto entry = static_cast<std::size_t>(batch.size);
     batch.t[entry] = hit.t;
-    batch.primitive[entry] = hit.primitive;
     batch.sample[entry] = static_cast<std::uint32_t>(i);
     put(batch.origin, entry, level.rays[i].path.ray.origin);
     put(batch.direction, entry, level.rays[i].path.ray.direction);
-    ++batch.size;
+    batch.add(hit.primitive);
     if (batch.room() == 0) flush(level, batch, eye, stats);
   }
   for (SurfaceBatch& batch : surfaces_) flush(level, batch, eye, stats);
@@ -61,8 +60,15 @@ std::size_t Wave::add_seen(const Level& level, std::size_t first, const Object& 
   SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(object.kind)];
   const std::size_t end = std::min(level.hits.size(), first + static_cast<std::size_t>(batch.room()));
   std::size_t entry = static_cast<std::size_t>(batch.size), last = first;
-  for (; last < end && level.hits[last].primitive - object.first_primitive < object.count; ++last)
-    batch.primitive[entry++] = level.hits[last].primitive;
+  auto runs = static_cast<std::uint32_t>(batch.runs);
+  std::uint32_t before = kNone;
+  for (; last < end && level.hits[last].primitive - object.first_primitive < object.count; ++last) {
+    const std::uint32_t primitive = level.hits[last].primitive;
+    runs += static_cast<std::uint32_t>(primitive != before);
+    before = batch.primitive[runs - 1] = primitive;
+    batch.run[entry++] = runs - 1;
+  }
+  batch.runs = static_cast<int>(runs);
   const auto to = static_cast<std::size_t>(batch.size), count = last - first;
   // Steps of column and row are whole numbers, exact.
   const double first_column = camera_.column_factor(camera_.n * pixels_.x0);
@@ -102,7 +108,7 @@ void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& st
     }
   }
   if (surfaces.want_leaving) find_leaving_points(level, surfaces, batch, stats);
-  surfaces.size = 0;
+  surfaces.clear();
 }
 
 // Whether there is nothing to search for near the hit.

@@ -2,7 +2,6 @@
 #include "common/model/surface_batch.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "common/model/surface_kernel.h"
 #include "common/prefetch.h"
@@ -24,49 +23,13 @@ void pad(SurfaceBatch& batch) {
     batch.column[i] = batch.column[size - 1];
     batch.row[i] = batch.row[size - 1];
     batch.t[i] = batch.t[size - 1];
-    batch.primitive[i] = batch.primitive[size - 1];
+    batch.run[i] = batch.run[size - 1];
     if (!batch.own_rays) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       batch.origin[axis][i] = batch.origin[axis][size - 1];
       batch.direction[axis][i] = batch.direction[axis][size - 1];
     }
   }
-}
-
-// Whether all of a group are of this primitive.
-bool is_one(const SurfaceBatch& batch, std::size_t first, std::uint32_t primitive) {
-  using Numbers = stdx::native_simd<std::uint32_t>;
-  Numbers unlike(0);
-  for (std::size_t i = first; i < first + kGroup; i += Numbers::size())
-    unlike |= load<Numbers>(&batch.primitive[i]) ^ Numbers(primitive);
-  return stdx::all_of(unlike == 0);
-}
-
-using Entries = std::array<std::uint32_t, SurfaceBatch::kCapacity>;
-
-// Of each run, some entry. (No branch where primitives change: that is hard to foresee.)
-void find_runs(SurfaceBatch& batch, Entries& entry) {
-  const std::size_t size = whole_groups(batch.size);
-  if (batch.own_rays) {
-    std::iota(batch.run.begin(), batch.run.begin() + static_cast<std::ptrdiff_t>(size), 0);
-    std::iota(entry.begin(), entry.begin() + static_cast<std::ptrdiff_t>(size), 0);
-    batch.runs = static_cast<int>(size);
-    return;
-  }
-  std::uint32_t runs = 0, last = ~batch.primitive[0];
-  for (std::size_t group = 0; group < size; group += kGroup) {
-    if (is_one(batch, group, last)) {
-      std::fill_n(&batch.run[group], kGroup, runs - 1);
-      continue;
-    }
-    for (std::size_t i = group; i < group + kGroup; ++i) {
-      runs += static_cast<std::uint32_t>(batch.primitive[i] != last);
-      last = batch.primitive[i];
-      batch.run[i] = runs - 1;
-      entry[runs - 1] = static_cast<std::uint32_t>(i);
-    }
-  }
-  batch.runs = static_cast<int>(runs);
 }
 
 std::uint32_t material_of(const Scene& scene, ObjectKind kind, std::uint32_t index) {
@@ -77,18 +40,16 @@ std::uint32_t material_of(const Scene& scene, ObjectKind kind, std::uint32_t ind
 
 // What the kernel has to know of the primitives, and what shading has to.
 void fetch(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch, ShadingBatch& out) {
-  Entries entry;
-  find_runs(batch, entry);
   batch.shiny = false;
   PrimitiveFinder find(scene);
   const auto runs = static_cast<std::size_t>(batch.runs);
   for (std::size_t r = 0; r < runs; ++r) {
-    batch.index[r] = find(batch.primitive[entry[r]]).index;
+    batch.index[r] = find(batch.primitive[r]).index;
     if (!batch.prefetched && batch.kind == ObjectKind::mesh) prefetch(&scene.triangles[batch.index[r]]);
   }
   for (std::size_t r = 0; r < runs && !batch.prefetched; ++r)
     prefetch_surface(scene, {batch.kind, batch.index[r]});
-  Entries material;
+  std::array<std::uint32_t, SurfaceBatch::kCapacity> material;
   std::uint32_t unlike = 0;
   for (std::size_t r = 0; r < runs; ++r) {
     material[r] = material_of(scene, batch.kind, batch.index[r]);
@@ -119,7 +80,7 @@ Ray ray_of(const Camera& camera, const SurfaceBatch& batch, std::size_t i) {
 void ask_again(const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
                std::size_t i, ShadingBatch& out, SignCounts& counts) {
   const Ray ray = ray_of(camera, batch, i);
-  Hit hit{batch.t[i], batch.primitive[i]};
+  Hit hit{batch.t[i], batch.primitive[batch.run[i]]};
   SignCounts not_again;  // who found the primitive has counted this test
   if (!batch.has_t) hit = intersect(scene, hit.primitive, ray, kRayStart, not_again);
   batch.t[i] = hit.t;

@@ -29,7 +29,11 @@ struct SurfaceBatch {
   int size = 0;
   alignas(64) Channel<double> column, row;  // Camera::column_factor, row_factor
   alignas(64) Channel<double> t;            // depth, where it is known; else a result, where it is asked for
-  alignas(64) Channel<std::uint32_t> primitive, sample;  // `sample` is the caller's own number, if it has one
+  // Entries in a row that share a primitive, and the place from which they see it, are a run: which run each entry is of,
+  // numbered from 0 without gaps, and of each run which primitive. (Two runs in a row may share it, too.)
+  alignas(64) Channel<std::uint32_t> run, primitive;
+  int runs = 0;
+  alignas(64) Channel<std::uint32_t> sample;  // the caller's own number of an entry, if it has one
   bool has_t = false;                                    // t is given
   bool want_t = false;
   bool prefetched = false;  // by whoever collects the batch
@@ -37,19 +41,27 @@ struct SurfaceBatch {
   alignas(64) Vectors origin, direction;
 
   int room() const { return kCapacity - size; }
-  // `count` <= room() neighbours in a row, from the one with this column factor.
-  void add(double first_column, double row_factor, const std::uint32_t* primitives, int count) {
+  void clear() { size = runs = 0; }
+  // `count` <= room() neighbours in a row, from the one with this column factor; the run that each is of, by any numbers that
+  // ascend by 0 or 1. Their primitives are left to the caller; returns the first of these runs.
+  std::size_t add(double first_column, double row_factor, const std::uint32_t* run_of, int count) {
     const auto to = static_cast<std::size_t>(size), added = static_cast<std::size_t>(count);
+    const auto first_run = static_cast<std::uint32_t>(runs), shift = first_run - run_of[0];
     for (std::size_t k = 0; k < added; ++k) column[to + k] = first_column + kTwice[k];
     std::fill_n(&row[to], added, row_factor);
-    std::copy_n(primitives, added, &primitive[to]);
+    for (std::size_t k = 0; k < added; ++k) run[to + k] = run_of[k] + shift;
     size += count;
+    runs = static_cast<int>(run[to + added - 1]) + 1;
+    return first_run;
+  }
+  // An entry that is a run of its own.
+  void add(std::uint32_t of_primitive) {
+    primitive[static_cast<std::size_t>(runs)] = of_primitive;
+    run[static_cast<std::size_t>(size++)] = static_cast<std::uint32_t>(runs++);
   }
 
-  // Set by surfaces_at(). Entries in a row that share a primitive, and the place from which they see it, are a run: which run
-  // an entry is of, and of each run which triangle, sphere or plane (of all vectors' lanes beyond the last: some).
-  alignas(64) Channel<std::uint32_t> run, index;
-  int runs = 0;
+  // Set by surfaces_at(): of each run which triangle, sphere or plane (of all vectors' lanes beyond the last: some).
+  alignas(64) Channel<std::uint32_t> index;
   bool shiny = false;  // V is asked for
   // Results, if asked for: Place::point, facing and clearance, and Surface::normal. ShadingBatch::facing goes with them.
   bool want_leaving = false;

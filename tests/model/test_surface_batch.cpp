@@ -98,7 +98,7 @@ void check(Isa isa, const Scene& scene, const Camera& camera, const ShadingTable
   outcome.entries += hits.size();
   outcome.unlike += counts.in_double != twin_counts.in_double || counts.exact != twin_counts.exact;
   outcome.exact += counts.exact;
-  batch.size = 0;
+  batch.clear();
 }
 
 // The samples of pictures from several eyes, every primitive that the ray meets, in batches of one kind.
@@ -134,7 +134,14 @@ Outcome compared(Isa isa, const Mode& mode) {
           batch.origin[static_cast<std::size_t>(axis)][i] = ray.origin[axis];
           batch.direction[static_cast<std::size_t>(axis)][i] = ray.direction[axis];
         }
-        batch.add(camera.column_factor(X), camera.row_factor(Y), &primitive, 1);
+        batch.column[i] = camera.column_factor(X);
+        batch.row[i] = camera.row_factor(Y);
+        if (mode.own_rays || i == 0 || primitive != hits.back().primitive) {
+          batch.add(primitive);
+        } else {
+          batch.run[i] = batch.run[i - 1];
+          ++batch.size;
+        }
         rays.push_back(ray);
         hits.push_back(hit);
         // Sizes of all kinds: whole batches, and less.
