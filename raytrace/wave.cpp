@@ -66,12 +66,12 @@ void Wave::trace_level(std::size_t depth, RenderStats& stats) {
 }
 
 // Takes rays that wait at this depth as those that are traced next; false if there are none. Most often these are all of
-// them. But where every hit sends two rays, whole levels would fill any memory: then a part at a time, of 1024 at first,
+// them. But where every hit sends two rays, whole levels would fill any memory: then a part at a time, of 4096 at first,
 // of fewer the deeper. What waits at a depth is at most twice the part of the depth before, so at all depths together no
-// more than 2 (16 * 1024 + 16384 ln 16) + 128 depth rays.
+// more than 2 (4 * 4096 + 16384 ln 64) + 128 depth rays.
 bool Wave::take_part(std::size_t depth) {
   Level& level = levels_[depth];
-  const std::size_t part = std::clamp<std::size_t>(16384 / depth, 64, 1024);
+  const std::size_t part = std::clamp<std::size_t>(16384 / depth, 64, 4096);
   level.rays.clear();
   if (level.waiting.size() <= part) {
     level.rays.swap(level.waiting);
