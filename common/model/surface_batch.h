@@ -34,7 +34,7 @@ struct SurfaceBatch {
   alignas(64) Channel<std::uint32_t> run, primitive;
   int runs = 0;
   alignas(64) Channel<std::uint32_t> sample;  // the caller's own number of an entry, if it has one
-  bool has_t = false;                                    // t is given
+  bool has_t = false;                         // t is given
   bool want_t = false;
   bool prefetched = false;  // by whoever collects the batch
   bool own_rays = false;    // origin and direction are given, in place of column and row; has_t goes with it
