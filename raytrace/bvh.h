@@ -9,12 +9,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <span>
+#include <vector>
 
-#include "common/kept_memory.h"
 #include "common/math/isa.h"
 #include "common/model/visibility.h"
 
@@ -46,16 +47,17 @@ struct alignas(64) BvhNode {
 static_assert(sizeof(BvhNode) == 256);
 
 struct Bvh {
-  KeptArray<BvhNode> nodes;        // nodes[0] is the root; empty for no boxes
-  KeptArray<std::uint32_t> items;  // what was built over, leaf by leaf
+  std::vector<BvhNode> nodes;        // nodes[0] is the root; empty for no boxes
+  std::vector<std::uint32_t> items;  // what was built over, leaf by leaf
   glm::dvec3 center{0};  // what the nodes' boxes are relative to; 0 along axes that cross the world's
   double reach = 0;      // greatest coordinate of any box
   static constexpr std::uint32_t kMaxLeaf = 8;
   static constexpr int kMaxDepth = 64;  // nodes above any leaf
 };
 
-// boxes[i], finite, is that of items[i]. The same for any number of threads.
-Bvh build_bvh(std::span<const std::uint32_t> items, std::span<const Box> boxes, int threads = 1);
+// box_of(item), for each of `items`, is finite; it is called from several threads. The same for any number of threads.
+Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uint32_t)>& box_of,
+              int threads = 1);
 
 // What a traversal does with a leaf, items[first, first + count): returns the new limit, negative to stop.
 struct LeafVisitor {

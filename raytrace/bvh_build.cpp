@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <memory>
 
 #include "common/parallel.h"
 #include "raytrace/bvh.h"
@@ -26,7 +27,7 @@ class Builder {
     Range range;
     std::uint32_t node, slot;  // whose child it is
   };
-  std::uint32_t build(const Range& range, KeptArray<BvhNode>& nodes, std::vector<Task>* tasks,
+  std::uint32_t build(const Range& range, std::vector<BvhNode>& nodes, std::vector<Task>* tasks,
                       std::uint32_t task_size) {
     const auto node = static_cast<std::uint32_t>(nodes.size());
     nodes.emplace_back();
@@ -190,14 +191,23 @@ class Builder {
   float unit_;
 };
 
-// Where the boxes are. A tree far from the world's origin is kept relative to its middle.
-void place(Bvh& bvh, std::span<const Box> boxes, int threads) {
-  std::vector<Box> of_block(blocks_of(boxes.size()));
-  parallel_blocks(boxes.size(), threads, [&](std::size_t block, std::size_t first, std::size_t last) {
-    Box all;
-    for (std::size_t i = first; i < last; ++i) all.grow(boxes[i]);
-    of_block[block] = all;
+// body(block, item) for all items, block by block in parallel.
+constexpr int kBlock = 4096;
+template <class Body>
+void for_each_item(std::size_t items, int threads, const Body& body) {
+  const auto size = static_cast<int>(items);
+  parallel_for((size + kBlock - 1) / kBlock, threads, [&](int block, int) {
+    for (int i = block * kBlock; i < std::min(size, (block + 1) * kBlock); ++i)
+      body(static_cast<std::size_t>(block), static_cast<std::size_t>(i));
   });
+}
+
+// Where the boxes are. A tree far from the world's origin is kept relative to its middle.
+void place(Bvh& bvh, const std::vector<std::uint32_t>& items, const std::function<Box(std::uint32_t)>& box_of,
+           int threads) {
+  std::vector<Box> of_block(items.size() / kBlock + 1);
+  for_each_item(items.size(), threads,
+                [&](std::size_t block, std::size_t i) { of_block[block].grow(box_of(items[i])); });
   Box world;
   for (const Box& box : of_block) world.grow(box);
   for (int axis = 0; axis < 3; ++axis) {
@@ -208,20 +218,17 @@ void place(Bvh& bvh, std::span<const Box> boxes, int threads) {
 }
 
 // All items as one range, their boxes relative to `center`.
-Range refer(std::span<const std::uint32_t> items, std::span<const Box> boxes, const glm::dvec3& center,
-            int threads, Reference* references) {
-  std::vector<Range> of_block(blocks_of(items.size()));
-  parallel_blocks(items.size(), threads, [&](std::size_t block, std::size_t first, std::size_t last) {
-    Range part;
-    for (std::size_t i = first; i < last; ++i) {
-      const glm::dvec3 low = boxes[i].low - center, high = boxes[i].high - center;
-      references[i] = {{round_down(low.x), round_down(low.y), round_down(low.z), 0},
-                       {round_up(high.x), round_up(high.y), round_up(high.z)},
-                       items[i]};
-      part.boxes.grow(references[i].box());
-      part.centers.grow(center_of(references[i].box()));
-    }
-    of_block[block] = part;
+Range refer(const std::vector<std::uint32_t>& items, const std::function<Box(std::uint32_t)>& box_of,
+            const glm::dvec3& center, int threads, Reference* references) {
+  std::vector<Range> of_block(items.size() / kBlock + 1);
+  for_each_item(items.size(), threads, [&](std::size_t block, std::size_t i) {
+    const Box box = box_of(items[i]);
+    const glm::dvec3 low = box.low - center, high = box.high - center;
+    references[i] = {{round_down(low.x), round_down(low.y), round_down(low.z), 0},
+                     {round_up(high.x), round_up(high.y), round_up(high.z)},
+                     items[i]};
+    of_block[block].boxes.grow(references[i].box());
+    of_block[block].centers.grow(center_of(references[i].box()));
   });
   Range all;
   all.count = static_cast<std::uint32_t>(items.size());
@@ -233,11 +240,11 @@ Range refer(std::span<const std::uint32_t> items, std::span<const Box> boxes, co
 }
 
 // The upper levels here, then the subtrees below them in parallel; which they are depends on the items alone.
-void build_nodes(Builder& builder, const Range& all, int threads, KeptArray<BvhNode>& nodes) {
+void build_nodes(Builder& builder, const Range& all, int threads, std::vector<BvhNode>& nodes) {
   constexpr std::uint32_t kTaskSize = 8192;
   std::vector<Builder::Task> tasks;
   builder.build(all, nodes, &tasks, kTaskSize);
-  std::vector<KeptArray<BvhNode>> subtrees(tasks.size());
+  std::vector<std::vector<BvhNode>> subtrees(tasks.size());
   parallel_for(static_cast<int>(tasks.size()), threads, [&](int i, int) {
     const auto task = static_cast<std::size_t>(i);
     builder.build(tasks[task].range, subtrees[task], nullptr, 0);
@@ -254,18 +261,19 @@ void build_nodes(Builder& builder, const Range& all, int threads, KeptArray<BvhN
 
 }  // namespace
 
-Bvh build_bvh(std::span<const std::uint32_t> items, std::span<const Box> boxes, int threads) {
+Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uint32_t)>& box_of,
+              int threads) {
   Bvh bvh;
   if (items.empty()) return bvh;
-  place(bvh, boxes, threads);
-  KeptArray<Reference> references(2 * items.size());
-  const Range all = refer(items, boxes, bvh.center, threads, references.data());
+  place(bvh, items, box_of, threads);
+  const auto storage = std::make_unique_for_overwrite<Reference[]>(2 * items.size());
+  const Range all = refer(items, box_of, bvh.center, threads, storage.get());
   const Quad extent = all.boxes.high - all.boxes.low;
   const float longest = std::max({extent[0], extent[1], extent[2]});
-  Builder builder(references.data(), references.data() + items.size(), longest > 0 ? 1 / longest : 1);
+  Builder builder(storage.get(), storage.get() + items.size(), longest > 0 ? 1 / longest : 1);
   build_nodes(builder, all, threads, bvh.nodes);
-  bvh.items.resize(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) bvh.items[i] = references[i].item;
+  for (std::size_t i = 0; i < items.size(); ++i) items[i] = storage[i].item;
+  bvh.items = std::move(items);
   return bvh;
 }
 

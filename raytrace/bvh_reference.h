@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -57,13 +58,9 @@ struct Range {
   int depth = 0;  // nodes above it
 };
 
-// The greatest float that is not above x, without a branch: half of all numbers would take it.
 inline float round_down(double x) {
-  const auto nearest = static_cast<float>(x);
-  const auto bits = to_bits(nearest);
-  const auto up =
-      bits >> 31 | 1;  // to the bits of the next greater float, 1 or -1; what is above x is not +0
-  return from_bits<float>(bits - (nearest > x ? up : 0));
+  const auto f = static_cast<float>(x);
+  return f <= x ? f : std::nextafter(f, -kInfinity);
 }
 inline float round_up(double x) { return -round_down(-x); }
 

@@ -25,7 +25,7 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 Bvh bvh_over(const std::vector<Box>& boxes) {
   std::vector<std::uint32_t> items(boxes.size());
   std::iota(items.begin(), items.end(), 0u);
-  return raytrace::build_bvh(items, boxes);
+  return raytrace::build_bvh(items, [&](std::uint32_t i) { return boxes[i]; });
 }
 
 std::vector<Isa> isas() {
