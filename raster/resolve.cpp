@@ -79,8 +79,7 @@ void TileResolve::shade_samples(bool known_t, SignCounts& counts) {
     of_kind.batch.prefetched = true;
   }
   find_runs();
-  std::size_t run = 0;
-  for (int row = 0; row < rows(); ++row) run = shade_row(row, run, known_t, counts);
+  for (int row = 0; row < rows(); ++row) shade_row(row, known_t, counts);
   for (Collected& of_kind : collected_) flush(of_kind, counts);
 }
 
@@ -123,13 +122,14 @@ void TileResolve::prefetch_run(std::size_t run) {
   visit(kSurface, [&](const PrimitiveRef& ref) { prefetch_surface(prepared_.scene, ref); });
 }
 
-// Stretches of background, and of primitives of one kind. From the row's first run to the next one's.
-std::size_t TileResolve::shade_row(int row, std::size_t run, bool known_t, SignCounts& counts) {
+// Stretches of background, and of primitives of one kind.
+void TileResolve::shade_row(int row, bool known_t, SignCounts& counts) {
   constexpr int kBackground = -1;
   const auto kind_of = [&](std::uint32_t primitive) {
     return primitive == kNone ? kBackground : static_cast<int>(find_(primitive).kind);
   };
   const std::size_t start = index(0, row), end = index(0, row + 1);
+  std::size_t run = run_of_[start];
   for (std::size_t first = start, last; first < end; first = last) {
     const int kind = kind_of(primitive_[first]);
     do {
@@ -147,17 +147,15 @@ std::size_t TileResolve::shade_row(int row, std::size_t run, bool known_t, SignC
       const Run now{left.column, row, batch.size, std::min(batch.room(), left.count)};
       const std::size_t i = index(now.column, row);
       if (known_t) std::copy_n(&known_t_[i], now.count, &batch.t[static_cast<std::size_t>(now.entry)]);
-      const std::size_t to = batch.add(camera_.column_factor(n_ * pixels_.x0 + now.column),
-                                       camera_.row_factor(n_ * pixels_.y0 + row), &run_of_[i], now.count);
-      for (std::size_t r = to; r < static_cast<std::size_t>(batch.runs); ++r)
-        batch.primitive[r] = primitive_[run_start_[run_of_[i] + (r - to)]];
+      batch.add(camera_.column_factor(n_ * pixels_.x0 + now.column),
+                camera_.row_factor(n_ * pixels_.y0 + row), &run_of_[i], now.count,
+                [this](std::uint32_t each) { return primitive_[run_start_[each]]; });
       collected.runs.push_back(now);
       left.column += now.count;
       left.count -= now.count;
       if (batch.room() == 0) flush(collected, counts);
     }
   }
-  return run;
 }
 
 void TileResolve::set_background(std::size_t first, std::size_t count) {

@@ -73,7 +73,7 @@ class TileResolve {
   void shade_samples(bool known_t, SignCounts& counts);
   void find_runs();
   void prefetch_run(std::size_t run);
-  std::size_t shade_row(int row, std::size_t run, bool known_t, SignCounts& counts);
+  void shade_row(int row, bool known_t, SignCounts& counts);
   void set_background(std::size_t first, std::size_t count);
   void flush(Collected& collected, SignCounts& counts);
   void keep(const SurfaceBatch& batch, const Run& run);

@@ -42,17 +42,19 @@ struct SurfaceBatch {
 
   int room() const { return kCapacity - size; }
   void clear() { size = runs = 0; }
-  // `count` <= room() neighbours in a row, from the one with this column factor; the run that each is of, by any numbers that
-  // ascend by 0 or 1. Their primitives are left to the caller; returns the first of these runs.
-  std::size_t add(double first_column, double row_factor, const std::uint32_t* run_of, int count) {
+  // `count` <= room() neighbours in a row, from the one with this column factor: the run that each is of, by any numbers that
+  // ascend by 0 or 1, and primitive_of(such a number).
+  template <class PrimitiveOf>
+  void add(double first_column, double row_factor, const std::uint32_t* run_of, int count,
+           const PrimitiveOf& primitive_of) {
     const auto to = static_cast<std::size_t>(size), added = static_cast<std::size_t>(count);
-    const auto first_run = static_cast<std::uint32_t>(runs), shift = first_run - run_of[0];
+    const std::uint32_t shift = static_cast<std::uint32_t>(runs) - run_of[0];
     for (std::size_t k = 0; k < added; ++k) column[to + k] = first_column + kTwice[k];
     std::fill_n(&row[to], added, row_factor);
     for (std::size_t k = 0; k < added; ++k) run[to + k] = run_of[k] + shift;
+    for (std::uint32_t r = run_of[0]; r <= run_of[added - 1]; ++r)
+      primitive[static_cast<std::size_t>(runs++)] = primitive_of(r);
     size += count;
-    runs = static_cast<int>(run[to + added - 1]) + 1;
-    return first_run;
   }
   // An entry that is a run of its own.
   void add(std::uint32_t of_primitive) {

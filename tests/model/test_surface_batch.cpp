@@ -3,7 +3,9 @@
 // and without vertex normals, spheres and planes, seen plainly, from within, nearly edge-on and from far away.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "common/model/surface_batch.h"
 #include "common/scene/build.h"
@@ -174,7 +176,39 @@ void check_isa(Isa isa) {
   }
 }
 
+using Numbers = std::vector<std::uint32_t>;
+
+// The primitive of each entry, as its run says.
+Numbers primitives_of(const SurfaceBatch& batch) {
+  Numbers primitives;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i)
+    primitives.push_back(batch.primitive[batch.run[i]]);
+  return primitives;
+}
+
 }  // namespace
+
+TEST_CASE("surfaces: neighbours keep their primitives, whatever their runs were numbered") {
+  const Numbers shown{70, 71, 71, 71, 72, 70, 70, 73};
+  const Numbers run_of{4, 5, 5, 5, 6, 7, 7, 8};
+  const auto primitive_of = [&](std::uint32_t run) {
+    return shown[static_cast<std::size_t>(std::find(run_of.begin(), run_of.end(), run) - run_of.begin())];
+  };
+  SurfaceBatch batch;
+  // In two pieces, cut within a run, after an entry that comes alone; and again after clear().
+  for (int round = 0; round < 2; ++round) {
+    batch.add(99);
+    batch.add(-7, 3, &run_of[0], 3, primitive_of);
+    batch.add(-1, 3, &run_of[3], 5, primitive_of);
+    CHECK(primitives_of(batch) == Numbers{99, 70, 71, 71, 71, 72, 70, 70, 73});
+    CHECK(batch.runs == 1 + 2 + 4);
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+      CHECK(batch.column[1 + k] == -7 + 2 * static_cast<double>(k));
+      CHECK(batch.row[1 + k] == 3);
+    }
+    batch.clear();
+  }
+}
 
 TEST_CASE("surfaces in lanes: scalar") { check_isa(Isa::scalar); }
 TEST_CASE("surfaces in lanes: AVX2") { check_isa(Isa::avx2); }
