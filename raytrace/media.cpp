@@ -26,6 +26,11 @@ std::size_t Media::place_of(std::uint32_t solid) const {
   return static_cast<std::size_t>(std::lower_bound(begin(), begin() + size_, solid) - begin());
 }
 
+bool Media::operator<(const Media& other) const {
+  if (certain_ != other.certain_) return certain_ < other.certain_;
+  return std::lexicographical_compare(begin(), begin() + size_, other.begin(), other.begin() + other.size_);
+}
+
 void Media::enter(std::uint32_t solid) {
   const std::size_t at = place_of(solid);
   if (at < size_ && begin()[at] == solid) return doubt();

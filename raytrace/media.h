@@ -26,6 +26,8 @@ class Media {
   bool certain() const { return certain_; }
   void doubt() { certain_ = false; }
 
+  bool operator<(const Media& other) const;  // some total order
+
  private:
   friend Media media_at(const Prepared& prepared, const glm::dvec3& eye);
 

@@ -7,6 +7,12 @@
 
 namespace sidelight::raytrace {
 
+Shares shares_of(const Scene& scene, const Material& material) {
+  const auto share = [](const glm::dvec3& c) { return Share{glm::vec3(c), largest(c)}; };
+  const glm::dvec3 c2 = reflect_of(scene, material), c3 = refract_of(scene, material);
+  return {share(c2), share(c3), share(c2 + c3)};
+}
+
 Departures departures(const Prepared& prepared, const Path& path, const Hit& hit, const Surface& surface,
                       const glm::dvec3& from, SignCounts& counts) {
   const Scene& scene = prepared.scene;
@@ -56,9 +62,9 @@ bool send(const Scene& scene, const glm::dvec3& c, Path& path) {
   return true;
 }
 
-double distance_weight(const Attenuation& q, const Path& path, const Hit& hit) {
+double distance_weight(const Attenuation& q, const Ray& ray, const Hit& start, const Hit& hit) {
   if (!hit.found()) return q.q1 > 0 || q.q2 > 0 ? 0 : 1 / std::max(1.0, q.q0);
-  const double r = (hit.t - path.start.t) * glm::length(path.ray.direction);
+  const double r = (hit.t - start.t) * glm::length(ray.direction);
   return 1 / std::max(1.0, q.q0 + q.q1 * r + q.q2 * r * r);
 }
 

@@ -33,6 +33,17 @@ inline glm::dvec3 refract_of(const Scene& scene, const Material& material) {
   return scene.trace.refraction ? material.refract : glm::dvec3(0);
 }
 
+// What a ray brings back is counted by c; its largest channel is what the ray weighs, 0: there is none.
+struct Share {
+  glm::vec3 c{0};
+  double largest = 0;
+};
+// Of the rays that leave a material: mirrored, transmitted, and the one for both where reflection is total.
+struct Shares {
+  Share mirrored, transmitted, total;
+};
+Shares shares_of(const Scene& scene, const Material& material);
+
 // The secondary rays that `path` gives rise to where it met `hit`, at `surface`; they start at `from`
 // (leaving_point). Of the surface object, material, normal, facing, entering and together are read. Depth and weight are
 // still those of `path`.
@@ -53,8 +64,8 @@ inline bool is_sent(const Scene& scene, int depth, double weight) {
 // little.
 bool send(const Scene& scene, const glm::dvec3& c, Path& path);
 
-// w(r) = 1 / max(1, q0 + q1 r + q2 r²); a ray that meets nothing has r -> infinity.
-double distance_weight(const Attenuation& q, const Path& path, const Hit& hit);
+// w(r) = 1 / max(1, q0 + q1 r + q2 r²) from `start` to `hit`; a ray that meets nothing has r -> infinity.
+double distance_weight(const Attenuation& q, const Ray& ray, const Hit& start, const Hit& hit);
 
 // From `origin` to the light: up to t = 1 of a point light.
 inline Ray ray_to_light(const glm::dvec3& origin, const Light& light) {

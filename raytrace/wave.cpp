@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "common/picture/tile_pixels.h"
 
@@ -22,11 +21,12 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       want_shadow_((options.layers & layer_bit(Layer::shadow)) != 0),
       want_normal_((options.layers & layer_bit(Layer::normal)) != 0),
       want_t_((options.layers & layer_bit(Layer::depth)) != 0 || options.keep_samples),
+      media_(prepared, eye_media),
       eye_packets_(prepared, camera, options.isa),
       shadow_packets_(prepared, options.isa),
       enclosures_(prepared),
       clearings_(prepared, options.isa) {
-  eye_path_.media = eye_media;
+  for (const Material& material : scene_.materials) shares_.push_back(shares_of(scene_, material));
   farthest_alone_ = 16 * eye_packets_.reach() / eye_packets_.ray_length();
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
     surfaces_[static_cast<std::size_t>(kind)].kind = kind;
@@ -57,6 +57,7 @@ void Wave::trace(const Rect& pixels, RenderStats& stats) {
 void Wave::trace_level(std::size_t depth, RenderStats& stats) {
   if (levels_.size() < depth + 2) levels_.resize(depth + 2);
   Level &level = levels_[depth], &next = levels_[depth + 1];
+  level.depth = static_cast<int>(depth) + 1;
   const bool eye = depth == 0;
   find_hits(level, eye, stats);
   find_surfaces(level, eye, stats);
@@ -77,7 +78,7 @@ bool Wave::take_part(std::size_t depth) {
     level.rays.swap(level.waiting);
   } else {
     const auto first = level.waiting.end() - static_cast<std::ptrdiff_t>(part);
-    level.rays.assign(std::make_move_iterator(first), std::make_move_iterator(level.waiting.end()));
+    level.rays.assign(first, level.waiting.end());
     level.waiting.erase(first, level.waiting.end());
   }
   return !level.rays.empty();
@@ -97,6 +98,7 @@ void Wave::begin(const Rect& pixels) {
     }
   }
   pixels_ = pixels;
+  media_.clear();
   if (levels_.empty()) levels_.resize(1);
   const auto size_if = [&](auto& array, bool wanted) {
     if (wanted) array.assign(samples(), {});
@@ -108,16 +110,23 @@ void Wave::begin(const Rect& pixels) {
 }
 
 Ray Wave::ray_of(const Level& level, std::size_t ray) const {
-  if (!level.rays.empty()) return level.rays[ray].path.ray;
+  if (!level.rays.empty()) return level.rays[ray].ray;
   const auto X = camera_.n * pixels_.x0 + static_cast<int>(order_[ray] % columns());
   const auto Y = camera_.n * pixels_.y0 + static_cast<int>(order_[ray] / columns());
   return {camera_.eye, camera_.direction(X, Y)};
 }
 
-const Path& Wave::path_of(const Level& level, std::size_t ray) {
-  if (!level.rays.empty()) return level.rays[ray].path;
-  eye_path_.ray = ray_of(level, ray);
-  return eye_path_;
+MediaSets::Number Wave::media_of(const Level& level, std::size_t ray) const {
+  return level.rays.empty() ? 0 : level.rays[ray].media;
+}
+
+double Wave::weight_of(const Level& level, std::size_t ray) const {
+  return level.rays.empty() ? 1 : level.rays[ray].weight;
+}
+
+// Path::start: of a ray that goes straight on, the hit that sent it.
+Hit Wave::start_of(const WaveRay& ray, const Level& parent) const {
+  return ray.kind == RayKind::straight ? parent.hits[ray.parent] : kRayStart;
 }
 
 // ---- Hits ----
@@ -155,8 +164,7 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
   if (!secondary_) return;
   level.mirrored.assign(size, glm::vec3(0));
   level.refracted.assign(size, glm::vec3(0));
-  level.cut_mirrored.assign(size, 0.0);
-  level.cut_refracted.assign(size, 0.0);
+  level.cut.assign(size, 0.0);
 }
 
 // What rays meet of the balls that they start at: a ray that goes on inside, the far side; else nothing.
@@ -170,8 +178,8 @@ void Wave::find_own_hits(Level& level, RenderStats& stats) {
     const Sphere& sphere = scene_.spheres[ref.index];
     const std::size_t k = balls_.size++;
     balls_.ray[k] = static_cast<std::uint32_t>(i);
-    put(balls_.origin, k, ray.path.ray.origin);
-    put(balls_.direction, k, ray.path.ray.direction);
+    put(balls_.origin, k, ray.ray.origin);
+    put(balls_.direction, k, ray.ray.direction);
     put(balls_.center, k, sphere.center);
     balls_.radius[k] = sphere.radius;
     balls_.passes[k] = ray.passes;
@@ -194,11 +202,12 @@ void Wave::find_first_hits(Level& level, RenderStats& stats) {
   questions_.clear();
   asking_.clear();
   find_own_hits(level, stats);
+  const Level& parent = levels_[static_cast<std::size_t>(level.depth) - 2];
   for (std::size_t i = 0; i < level.rays.size(); ++i) {
     const WaveRay& ray = level.rays[i];
     const Hit& own = level.hits[i];
     if (own.found() && prepared_.secluded[primitive_ref(scene_, ray.own).index]) continue;
-    questions_.push_back({ray.path.ray, ray.path.start, ray.own, own});
+    questions_.push_back({ray.ray, start_of(ray, parent), ray.own, own});
     asking_.push_back(static_cast<std::uint32_t>(i));
   }
   nearest_beside(prepared_, questions_, stats.signs, isa_);
@@ -208,21 +217,20 @@ void Wave::find_first_hits(Level& level, RenderStats& stats) {
 // From the first hit of a secondary ray on: the first that is not just a surface inside of a medium that goes on behind
 // it.
 Hit Wave::first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats) {
-  Path& path = ray.path;
-  for (;; hit = nearest(prepared_, path.ray, hit, stats.signs, Precision::exact, isa_)) {
+  for (;; hit = nearest(prepared_, ray.ray, hit, stats.signs, Precision::exact, isa_)) {
     alone = false;
     if (!hit.found() || prepared_.solids.empty()) return hit;
     const std::uint32_t object = scene_.primitive_object[hit.primitive];
     if (!scene_.objects[object].solid) return hit;
-    const Lone lone = lone_hit(prepared_, path.ray, hit, isa_, &clearings_);
+    const Lone lone = lone_hit(prepared_, ray.ray, hit, isa_, &clearings_);
     alone = static_cast<std::uint8_t>(lone);
-    const Media behind =
-        lone != Lone::unknown
-            ? media_behind_lone(prepared_, object, lone == Lone::entering, path.media)
-            : media_behind(prepared_, path.ray, hit, surface_at(scene_, path.ray, hit, stats.signs),
-                           path.media, stats.signs);
-    if (behind.current() != path.media.current()) return hit;
-    path.media = behind;
+    const MediaSets::Number behind =
+        lone != Lone::unknown ? media_.behind_lone(object, lone == Lone::entering, ray.media)
+                              : media_.number_of(media_behind(prepared_, ray.ray, hit,
+                                                              surface_at(scene_, ray.ray, hit, stats.signs),
+                                                              media_[ray.media], stats.signs));
+    if (media_[behind].current() != media_[ray.media].current()) return hit;
+    ray.media = behind;
   }
 }
 

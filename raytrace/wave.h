@@ -17,6 +17,7 @@
 #include "raytrace/eye_packets.h"
 #include "raytrace/kernels.h"
 #include "raytrace/lone_hit.h"
+#include "raytrace/media_sets.h"
 #include "raytrace/optics_batch.h"
 #include "raytrace/secondary.h"
 #include "raytrace/shadow_packets.h"
@@ -35,13 +36,17 @@ struct HitBatch {
   ShadingBatch::Rgb light{}, missing{};  // sums of T_i, c1 left out: of lights that are seen, that are not
 };
 
-// A secondary ray: where it comes from, and how what it brings back is counted there.
+// A secondary ray: where it comes from, and how what it brings back is counted there. A wave has thousands of them, which
+// stay in the cache if they are small.
 struct WaveRay {
-  Path path;
-  glm::dvec3 c{0};
+  Ray ray;
+  double weight = 1;  // Path::weight
+  glm::vec3 c{0};     // Share::c
   std::uint32_t parent = 0;
+  MediaSets::Number media = 0;  // where it travels
   // The primitive where it starts, if its own next hit there is found beforehand (first_hit), else kNone.
   std::uint32_t own = kNone;
+  RayKind kind = RayKind::mirrored;
   bool passes = false;  // at its start it crosses that primitive and no other, without a change of medium
 };
 
@@ -49,13 +54,15 @@ struct WaveRay {
 struct Sender {
   std::size_t entry = 0;  // of its batch
   Lone lone = Lone::unknown;
-  bool entering = false;  // of a solid that refracts: whether the ray does
-  Media behind;           // likewise
+  bool solid = false;
+  bool entering = false;         // of a solid that refracts: whether the ray does
+  MediaSets::Number behind = 0;  // likewise
 };
 
 // Rays of one depth that are traced together. Numbers are those of the rays; of the eye's level, of the tile's samples
 // in the order of EyePackets.
 struct Level {
+  int depth = 1;                 // Path::depth of the rays
   std::vector<WaveRay> rays;     // none at the eye's level: those are the camera's
   std::vector<WaveRay> waiting;  // rays of this depth whose turn comes later
   std::vector<Hit> hits;
@@ -63,7 +70,7 @@ struct Level {
   // or, of hits on solids, by lone_hit(): then as it says.
   std::vector<std::uint8_t> alone;
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
-  std::vector<double> cut_mirrored, cut_refracted;    // likewise: weights not sent there, and below
+  std::vector<double> cut;                            // likewise: weights not sent there, and below
 };
 
 // Whether the ray comes from the outward side, Nv being `facing`: as locate() has it.
@@ -85,8 +92,10 @@ class Wave {
 
   std::size_t columns() const { return static_cast<std::size_t>(camera_.n * pixels_.width()); }
   std::size_t samples() const { return columns() * static_cast<std::size_t>(camera_.n * pixels_.height()); }
-  const Path& path_of(const Level& level, std::size_t ray);  // until it is asked for the next one
   Ray ray_of(const Level& level, std::size_t ray) const;
+  MediaSets::Number media_of(const Level& level, std::size_t ray) const;
+  double weight_of(const Level& level, std::size_t ray) const;
+  Hit start_of(const WaveRay& ray, const Level& parent) const;
 
   void begin(const Rect& pixels);
   void take_primary(std::vector<Hit>& hits) const;
@@ -111,12 +120,12 @@ class Wave {
   void sum_up(Level& level, bool eye);
   void send_secondary(Level& level, Level& next, RenderStats& stats);
   void find_senders(Level& level, const HitBatch& batch, RenderStats& stats);
-  void find_behind(const Level& level, const HitBatch& batch, const Path& path, Sender& sender,
+  void find_behind(const Level& level, const HitBatch& batch, const Ray& ray, Sender& sender,
                    SignCounts& counts);
   bool is_total(std::size_t k) const {  // reflection at entry k of optics_
     return optics_.eta[k] != OpticsBatch::kNoRefraction && optics_.total[k] != 0;
   }
-  WaveRay* send(Level& level, std::uint32_t parent, const glm::dvec3& c, RayKind kind, Level& next,
+  WaveRay* send(Level& level, std::uint32_t parent, const Share& share, RayKind kind, Level& next,
                 RenderStats& stats);
   void send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
   void send_transmitted(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
@@ -133,7 +142,8 @@ class Wave {
   bool secondary_, shadows_;  // whether there are such rays
   bool want_parts_, want_shadow_, want_normal_, want_t_;
   Rect pixels_;
-  Path eye_path_;  // of the eye's ray that was asked for last
+  std::vector<Shares> shares_;  // of each material
+  MediaSets media_;             // the first: around the eye
   // The tile's samples as EyePackets has them: the number of each, counted row by row, its column and its row; and the
   // place of each number in this order.
   std::vector<std::uint32_t> order_, place_;

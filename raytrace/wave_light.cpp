@@ -37,7 +37,7 @@ void Wave::find_queries(const Level& level) {
       if (!is_entering(scene_, ray_of(level, batch.ray[i]), level.hits[batch.ray[i]], get(batch.facing, i)))
         queries_.own[first + i] = -1;
     for (std::size_t i = 0; i < size && may_enclose; ++i)
-      enclosing_[first + i] = enclosures_.around(get(batch.from, i), level.rays[batch.ray[i]].path.media,
+      enclosing_[first + i] = enclosures_.around(get(batch.from, i), media_[level.rays[batch.ray[i]].media],
                                                  level.alone[batch.ray[i]]);
   }
 }

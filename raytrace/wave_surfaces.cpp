@@ -29,8 +29,8 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     const auto entry = static_cast<std::size_t>(batch.size);
     batch.t[entry] = hit.t;
     batch.sample[entry] = static_cast<std::uint32_t>(i);
-    put(batch.origin, entry, level.rays[i].path.ray.origin);
-    put(batch.direction, entry, level.rays[i].path.ray.direction);
+    put(batch.origin, entry, level.rays[i].ray.origin);
+    put(batch.direction, entry, level.rays[i].ray.direction);
     batch.add(hit.primitive);
     if (batch.room() == 0) flush(level, batch, eye, stats);
   }
@@ -117,7 +117,7 @@ bool Wave::stands_alone(Level& level, std::size_t ray, ObjectKind kind) {
     return !level.alone.empty() && level.alone[ray] && level.hits[ray].t < farthest_alone_;
   if (level.alone[ray] || kind != ObjectKind::mesh) return level.alone[ray];
   const Hit& hit = level.hits[ray];
-  const bool clear = is_clear(prepared_, level.rays[ray].path.ray, hit, clearings_);
+  const bool clear = is_clear(prepared_, level.rays[ray].ray, hit, clearings_);
   // On a solid the ray grazes, or lone_hit() would have said so: no reason to call it lone.
   level.alone[ray] = clear && !scene_.objects[scene_.primitive_object[hit.primitive]].solid;
   return clear;

@@ -35,9 +35,7 @@ void Wave::write(Frame& frame, std::vector<double>& cut) {
   write_means(eye.mirrored, frame.layer(Layer::reflection));
   write_means(eye.refracted, frame.layer(Layer::refraction));
   tile.for_each_pixel(frame, [&](std::size_t pixel, std::size_t first) {
-    tile.for_each_sample(first, [&](std::size_t sample) {
-      cut[pixel] += eye.cut_mirrored[place_[sample]] + eye.cut_refracted[place_[sample]];
-    });
+    tile.for_each_sample(first, [&](std::size_t sample) { cut[pixel] += eye.cut[place_[sample]]; });
   });
 }
 

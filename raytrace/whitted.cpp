@@ -118,10 +118,10 @@ glm::vec<3, Real> Whitted<Real, Recorder>::follow(Departure leaving, double& cut
   ++(is_mirrored(path.kind) ? stats_.rays.reflection : stats_.rays.refraction);
   const Traced<Real> traced = trace(path);
   cut_weight += traced.cut_weight;
-  const Real w =
-      prepared_.needs[Need::secondary_attenuation]
-          ? static_cast<Real>(distance_weight(scene_.trace.secondary_attenuation, path, traced.hit))
-          : Real(1);
+  const Real w = prepared_.needs[Need::secondary_attenuation]
+                     ? static_cast<Real>(distance_weight(scene_.trace.secondary_attenuation, path.ray,
+                                                         path.start, traced.hit))
+                     : Real(1);
   recorder_.counted(c, w);
   return Rgb(c) * (w * traced.color);
 }
