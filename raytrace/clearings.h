@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Clearings: of a triangle, the inner part around which nothing else is, so that a hit there is known to be lone without
-// a search (lone_hit.h). Found for triangles that are hit again and again, as walls of glass are; for one thread.
+// a search (lone_hit.h); and of balls what is told in ball_clearings.h. Found for what is hit again and again, as walls of
+// glass are, and kept from frame to frame. Threads share it: which of them is the first to find something changes no answer.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "raytrace/prepared.h"
+#include "raytrace/ball_clearings.h"
 
 namespace sidelight::raytrace {
 
@@ -14,23 +16,24 @@ class Clearings {
   // A triangle is looked at when it is asked about for this many times: it takes as long as a few searches.
   static constexpr int kPatience = 8;
 
-  explicit Clearings(const Prepared& prepared, Isa isa, int patience = kPatience);
+  // Of scenes that have secondary rays; else nothing is ever clear.
+  explicit Clearings(const Prepared& prepared, int patience = kPatience);
 
-  // Whether surely nothing but the triangle itself has a point within `room`, along each axis, of this one on it. Not so
-  // where that is not known.
-  bool contain(std::uint32_t primitive, const glm::dvec3& point, double room);
+  // Whether surely nothing but the triangle or ball itself has a point within `room`, along each axis, of this one on
+  // it. Not so where that is not known.
+  bool contain(std::uint32_t primitive, const glm::dvec3& point, double room, Isa isa);
 
  private:
-  double find_inset(std::uint32_t primitive) const;
-  bool others_near(const Corners& corners) const;
+  double inset_of(std::uint32_t primitive, std::uint32_t triangle, Isa isa);
+  double find_inset(std::uint32_t primitive, Isa isa) const;
+  bool others_near(const Corners& corners, Isa isa) const;
 
   const Prepared& prepared_;
-  Isa isa_;
   double room_;  // that of rays of any length a scene has room for
-  int patience_;
   // Of each triangle the least barycentric weight from which on it is clear, 1 if nowhere; if negative, how often it is
-  // still to be asked about. Empty until one is.
+  // still to be asked about.
   std::vector<float> inset_;
+  std::optional<BallClearings> balls_;
 };
 
 }  // namespace sidelight::raytrace

@@ -52,11 +52,10 @@ bool anything_near(const Prepared& prepared, const glm::dvec3& point, double roo
 // All of these together, and the rounding of the point itself, are less than
 double room_for(double reach, double way) { return 0x1p-16 * way + 0x1p-20 * reach; }
 
-bool is_clear(const Prepared& prepared, const Ray& ray, const Hit& hit, Clearings& clearings) {
-  if (primitive_ref(prepared.scene, hit.primitive).kind != ObjectKind::mesh) return false;
+bool is_clear(const Prepared& prepared, const Ray& ray, const Hit& hit, Clearings& clearings, Isa isa) {
   const double way = hit.t * glm::length(ray.direction);
   return clearings.contain(hit.primitive, ray.origin + hit.t * ray.direction,
-                           room_for(prepared.reach_from(ray.origin), way));
+                           room_for(prepared.reach_from(ray.origin), way), isa);
 }
 
 bool is_steep(const glm::dvec3& direction, const glm::dvec3& facing) {
@@ -85,10 +84,8 @@ Lone lone_hit(const Prepared& prepared, const Ray& ray, const Hit& hit, Isa isa,
   const glm::dvec3 outward = outward_at(prepared.scene, ref, point, room);
   const double along = glm::dot(ray.direction, outward);
   if (!(std::abs(along) > 2 * kLeastCosine * length * glm::length(outward))) return Lone::unknown;
-  const bool alone = ref.kind == ObjectKind::sphere ? prepared.secluded[ref.index] != 0
-                     : ref.kind == ObjectKind::mesh && clearings
-                         ? clearings->contain(hit.primitive, point, room)
-                         : false;
+  const bool alone = (ref.kind == ObjectKind::sphere && prepared.secluded[ref.index] != 0) ||
+                     (clearings && clearings->contain(hit.primitive, point, room, isa));
   const auto none = [](std::uint32_t) { return false; };
   if (!alone && anything_near(prepared, point, room, hit.primitive, isa, none)) return Lone::unknown;
   return along < 0 ? Lone::entering : Lone::leaving;

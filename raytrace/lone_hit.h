@@ -23,7 +23,8 @@ Lone lone_hit(const Prepared& prepared, const Ray& ray, const Hit& hit, Isa isa 
               Clearings* clearings = nullptr);
 
 // Whether at a hit of any ray, a grazing one too, nothing else is known to lie near, by `clearings` alone.
-bool is_clear(const Prepared& prepared, const Ray& ray, const Hit& hit, Clearings& clearings);
+bool is_clear(const Prepared& prepared, const Ray& ray, const Hit& hit, Clearings& clearings,
+              Isa isa = best_isa());
 
 // Whether for certain there is nothing else in a ball, nor within a quarter of its radius around it: a ray inside meets
 // its far side next, and any hit on it is as good as lone. To be prepared (Prepared::secluded), as it asks anew.

@@ -36,7 +36,7 @@ class Media {
   const std::uint32_t* begin() const { return many_.empty() ? few_.data() : many_.data(); }
   std::size_t place_of(std::uint32_t solid) const;
 
-  // Objects, ascending: a few, as nearly always, or any number. Every ray has such a set of its own.
+  // Objects, ascending: a few, as nearly always, or any number.
   std::uint32_t size_ = 0;
   bool certain_ = false;
   std::array<std::uint32_t, kFew> few_{};

@@ -24,8 +24,7 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       media_(prepared, eye_media),
       eye_packets_(prepared, camera, options.isa),
       shadow_packets_(prepared, options.isa),
-      enclosures_(prepared),
-      clearings_(prepared, options.isa) {
+      enclosures_(prepared) {
   for (const Material& material : scene_.materials) shares_.push_back(shares_of(scene_, material));
   farthest_alone_ = 16 * eye_packets_.reach() / eye_packets_.ray_length();
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
@@ -222,7 +221,7 @@ Hit Wave::first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& 
     if (!hit.found() || prepared_.solids.empty()) return hit;
     const std::uint32_t object = scene_.primitive_object[hit.primitive];
     if (!scene_.objects[object].solid) return hit;
-    const Lone lone = lone_hit(prepared_, ray.ray, hit, isa_, &clearings_);
+    const Lone lone = lone_hit(prepared_, ray.ray, hit, isa_, prepared_.clearings.get());
     alone = static_cast<std::uint8_t>(lone);
     const MediaSets::Number behind =
         lone != Lone::unknown ? media_.behind_lone(object, lone == Lone::entering, ray.media)

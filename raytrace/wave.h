@@ -12,7 +12,6 @@
 #include "common/model/surface_batch.h"
 #include "common/picture/frame.h"
 #include "raytrace/ball_batch.h"
-#include "raytrace/clearings.h"
 #include "raytrace/enclosed.h"
 #include "raytrace/eye_packets.h"
 #include "raytrace/kernels.h"
@@ -152,7 +151,6 @@ class Wave {
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
   ShadowPackets shadow_packets_;
   Enclosures enclosures_;
-  Clearings clearings_;
   ShadowQueries queries_;  // of entry i of batch b: [b kCapacity + i]
   // Likewise: the solid around it, or Enclosures::kNone; empty where there surely is none.
   std::vector<std::size_t> enclosing_;

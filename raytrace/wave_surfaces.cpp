@@ -115,9 +115,9 @@ void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& st
 bool Wave::stands_alone(Level& level, std::size_t ray, ObjectKind kind) {
   if (level.rays.empty())
     return !level.alone.empty() && level.alone[ray] && level.hits[ray].t < farthest_alone_;
-  if (level.alone[ray] || kind != ObjectKind::mesh) return level.alone[ray];
+  if (level.alone[ray] || kind == ObjectKind::plane) return level.alone[ray];
   const Hit& hit = level.hits[ray];
-  const bool clear = is_clear(prepared_, level.rays[ray].ray, hit, clearings_);
+  const bool clear = is_clear(prepared_, level.rays[ray].ray, hit, *prepared_.clearings, isa_);
   // On a solid the ray grazes, or lone_hit() would have said so: no reason to call it lone.
   level.alone[ray] = clear && !scene_.objects[scene_.primitive_object[hit.primitive]].solid;
   return clear;

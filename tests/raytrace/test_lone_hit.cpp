@@ -107,7 +107,7 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
     const Scene scene = crowded_scene(random);
     const Prepared prepared(scene);
     SignCounts counts;
-    Clearings clearings(prepared, best_isa(), 1);
+    Clearings clearings(prepared, 1);
     for (int i = 0; i < 100; ++i) {
       const auto& triangle =
           scene.triangles[random.below(static_cast<std::uint32_t>(scene.triangles.size()))];
@@ -126,8 +126,8 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
           if (!machine_has(isa)) continue;
           const Lone searched = lone_hit(prepared, ray, hit, isa);
           CHECK((searched == lone || searched == Lone::unknown));
-          Clearings same(prepared, isa, 1);
-          CHECK(is_clear(prepared, ray, hit, same) == is_clear(prepared, ray, hit, clearings));
+          Clearings same(prepared, 1);
+          CHECK(is_clear(prepared, ray, hit, same, isa) == is_clear(prepared, ray, hit, clearings));
         }
         ++hits;
         if (lone == Lone::unknown) continue;
@@ -138,6 +138,44 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
   }
   CHECK(lone_hits > hits / 2);
   CHECK(clear > hits / 8);
+}
+
+TEST_CASE("lone hits: balls that touch are clear elsewhere, as a search finds them") {
+  Random random(97);
+  std::uint64_t hits = 0, clear = 0;
+  for (std::uint64_t left = 20 + tier_count("rays_per_case") / 1000; left > 0; --left) {
+    // Around one ball up to a few more than are kept of it, which touch it from without or within.
+    Scene scene = empty_scene();
+    const Sphere middle{random.in_box(10), random.log_uniform(0.1, 10), 0};
+    add_sphere(scene, middle, {});
+    for (std::uint32_t others = random.below(19); others > 0; --others) {
+      const double radius = random.log_uniform(1e-3, 1e3) * middle.radius;
+      const double apart = random.uniform() < 0.8 ? middle.radius + radius : middle.radius - radius;
+      add_sphere(scene, {middle.center + apart * random.direction(), radius, 0}, {});
+    }
+    if (random.uniform() < 0.1)
+      add_plane(scene, {middle.center + random.in_box(30), random.direction(), 0}, {});
+    scene.materials[0].reflect = glm::dvec3(0.5);
+    const Prepared prepared(scene);
+    Clearings clearings(prepared, 1);
+    SignCounts counts;
+    for (int i = 0; i < 50; ++i) {
+      const glm::dvec3 target = middle.center + middle.radius * random.direction();
+      const glm::dvec3 from = target + random.log_uniform(1e-3, 1e3) * random.direction();
+      const Ray ray = make_ray(from, target - from);
+      for (Hit hit = nearest(prepared, ray, kRayStart, counts); hit.found();
+           hit = nearest(prepared, ray, hit, counts)) {
+        ++hits;
+        if (!is_clear(prepared, ray, hit, clearings)) continue;
+        ++clear;
+        const Place place = locate(scene, ray, hit, counts);
+        for (std::uint32_t other = 0; other < scene.primitive_object.size(); ++other)
+          CHECK_FALSE(stands_near(scene, other, ray, hit, place, counts));
+        CHECK(lone_hit(prepared, ray, hit) == lone_hit(prepared, ray, hit, best_isa(), &clearings));
+      }
+    }
+  }
+  CHECK(clear > hits / 2);
 }
 
 TEST_CASE("lone hits: inside a secluded ball brute force finds its far side") {
