@@ -130,16 +130,22 @@ class SphereFilter {
     if (!(clear_ * inverse_square_ > 0x1p-900)) clear_ = std::numeric_limits<double>::infinity();
   }
 
-  // Of the `count` spheres of a leaf, which may be met at a depth in (0, limit].
+  // Of the `count` spheres of a leaf, which may be met at a depth in (0, limit]; which surely are, before the limit and all
+  // rounding of it (before_light()).
   LeafVerdict operator()(const double* leaf, std::uint32_t count, double limit) const {
-    std::uint32_t bits = 0;
-    for (std::uint32_t lane = 0; lane < lanes_used(count); lane += kLanes<D>)
-      bits |= may_meet(leaf + lane, count, limit) << lane;
-    return {bits & ((1u << count) - 1), 0};
+    LeafVerdict verdict;
+    for (std::uint32_t lane = 0; lane < lanes_used(count); lane += kLanes<D>) {
+      const LeafVerdict of_lanes = meet(leaf + lane, count, limit);
+      verdict.may |= of_lanes.may << lane;
+      verdict.must |= of_lanes.must << lane;
+    }
+    verdict.may &= (1u << count) - 1;
+    verdict.must &= verdict.may;
+    return verdict;
   }
 
  private:
-  std::uint32_t may_meet(const double* leaf, std::uint32_t count, double limit) const {
+  LeafVerdict meet(const double* leaf, std::uint32_t count, double limit) const {
     const D radius = load<D>(leaf + 3 * count), slack(128 * kUnit * reach_);
     D f[3], along(0), from_center2(0), distance2(0), size(0);
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -163,7 +169,11 @@ class SphereFilter {
     const D before = D(-doubt_) - t, after = t - D(limit * kDepthSlack + doubt_);
     const Mask<D> behind = before > D(0) && half2 < before * before;
     const Mask<D> beyond = after > D(0) && half2 < after * after;
-    return mask_bits<D>(!(leaving || missed || (clear && (behind || beyond))));
+    // The near end is at a positive depth, the middle before the limit.
+    const D ahead = t - D(doubt_);
+    const Mask<D> met =
+        clear && ahead > D(0) && half2 < ahead * ahead && t < D(limit * (2 - kDepthSlack) - doubt_);
+    return {mask_bits<D>(!(leaving || missed || (clear && (behind || beyond)))), mask_bits<D>(met)};
   }
 
   std::array<double, 3> origin_, direction_;

@@ -19,7 +19,7 @@ struct Candidate {
   std::uint32_t primitive;
   const double* numbers;
   std::uint32_t stride;  // from one number to the next
-  bool met;              // a triangle that the ray surely meets: only its depth is open
+  bool met;              // surely: only the depth is open
 
   glm::dvec3 corner(std::uint32_t k) const {
     const double* row = numbers + 3 * k * stride;
@@ -181,6 +181,17 @@ template <class Candidate>
   return hit.found() && (!light || before_light(prepared.scene, hit, ray, *light, counts)) ? hit : Hit{};
 }
 
+// Whether there is one. Of a sphere that is surely met before the light no root is needed.
+template <int kRows>
+[[gnu::always_inline]] inline bool blocks(const Prepared& prepared, const Candidate<kRows>& candidate,
+                                          const Ray& ray, const glm::dvec3* light, SignCounts& counts) {
+  if (kRows == SphereLeaves::kRowCount && candidate.met && prepared.all_cast_shadows) {
+    ++counts.tests;
+    return true;
+  }
+  return blocking_hit(prepared, candidate, ray, light, kRayStart, counts).found();
+}
+
 template <class F, class D>
 [[gnu::flatten]] Hit blocker_in_lanes(const Prepared& prepared, const Ray& ray, const glm::dvec3* light,
                                       const Hit& start, SignCounts& counts) {
@@ -205,7 +216,7 @@ template <class F, class D>
     const auto ray_of = [&](std::size_t r) -> const Ray& { return some[r].ray; };
     ask_all_of<F, D>(prepared, rays, ray_of, counts, [&](std::size_t r, const auto& candidate) {
       ShadowQuestion& question = some[r];
-      question.blocked = blocking_hit(prepared, candidate, question.ray, light, kRayStart, counts).found();
+      question.blocked = blocks(prepared, candidate, question.ray, light, counts);
       return question.blocked ? -1.0 : limit;
     });
   }

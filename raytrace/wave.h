@@ -30,7 +30,8 @@ struct HitBatch {
   SurfaceBatch::Channel<std::uint32_t> ray, material;  // the ray's number in its level
   SurfaceBatch::Vectors from, normal, facing;          // leaving_point, N and Nv, where rays leave
   SurfaceBatch::Channel<double> clearance;             // Place::clearance, likewise
-  SurfaceBatch::Channel<std::uint8_t> plain;  // rays leave straight above the point: no wall is in the way
+  SurfaceBatch::Channel<std::uint8_t> plain;     // rays leave straight above the point: no wall is in the way
+  SurfaceBatch::Channel<std::uint8_t> entering;  // of balls: the ray came from outside
   LitBatch lit;
   ShadingBatch::Rgb light{}, missing{};  // sums of T_i, c1 left out: of lights that are seen, that are not
 };
@@ -111,6 +112,7 @@ class Wave {
   void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
   void find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch, RenderStats& stats);
   bool stands_alone(Level& level, std::size_t ray, ObjectKind kind);
+  bool enters_ball(const Level& level, std::size_t ray, const glm::dvec3& facing) const;
   void add_lights(const Level& level, RenderStats& stats);
   void find_shadows(std::size_t light, RenderStats& stats);
   void find_queries(const Level& level);

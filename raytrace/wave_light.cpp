@@ -34,8 +34,7 @@ void Wave::find_queries(const Level& level) {
     for (std::size_t i = 0; i < size; ++i)
       queries_.own[first + i] = static_cast<std::int32_t>(level.hits[batch.ray[i]].primitive);
     for (std::size_t i = 0; i < size && batch.kind == ObjectKind::sphere; ++i)
-      if (!is_entering(scene_, ray_of(level, batch.ray[i]), level.hits[batch.ray[i]], get(batch.facing, i)))
-        queries_.own[first + i] = -1;
+      if (batch.entering[i] == 0) queries_.own[first + i] = -1;
     for (std::size_t i = 0; i < size && may_enclose; ++i)
       enclosing_[first + i] = enclosures_.around(get(batch.from, i), media_[level.rays[batch.ray[i]].media],
                                                  level.alone[batch.ray[i]]);

@@ -48,10 +48,11 @@ void Wave::find_senders(Level& level, const HitBatch& batch, RenderStats& stats)
     sender.lone = level.rays.empty() ? Lone::unknown : static_cast<Lone>(level.alone[number]);
     if (level.rays.empty() && sender.solid && !prepared_.solids.empty())  // EyePackets look for less
       sender.lone = lone_hit(prepared_, ray, hit, isa_, prepared_.clearings.get());
-    if (sender.solid || batch.kind == ObjectKind::sphere)
-      sender.entering = sender.lone == Lone::unknown || !sender.solid
-                            ? is_entering(scene_, ray, hit, get(batch.facing, i))
-                            : sender.lone == Lone::entering;
+    if (batch.kind == ObjectKind::sphere)
+      sender.entering = batch.entering[i] != 0;
+    else if (sender.solid)
+      sender.entering = sender.lone == Lone::unknown ? is_entering(scene_, ray, hit, get(batch.facing, i))
+                                                     : sender.lone == Lone::entering;
     if (c3 == 0 || !sender.solid) continue;
     find_behind(level, batch, ray, sender, stats.signs);
     optics_.eta[k] = relative_ior(scene_, media_[media_of(level, number)], media_[sender.behind]);

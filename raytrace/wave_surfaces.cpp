@@ -123,6 +123,13 @@ bool Wave::stands_alone(Level& level, std::size_t ray, ObjectKind kind) {
   return clear;
 }
 
+// Whether the ray comes from outside. Of secondary rays lone_hit() told it where it could.
+bool Wave::enters_ball(const Level& level, std::size_t ray, const glm::dvec3& facing) const {
+  const Lone lone = level.rays.empty() ? Lone::unknown : static_cast<Lone>(level.alone[ray]);
+  if (lone != Lone::unknown) return lone == Lone::entering;
+  return is_entering(scene_, ray_of(level, ray), level.hits[ray], facing);
+}
+
 void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
                                RenderStats& stats) {
   const auto size = static_cast<std::size_t>(batch.size);
@@ -135,6 +142,8 @@ void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBa
     batch.normal = surfaces.normal;
     batch.clearance = surfaces.clearance;
   }
+  for (std::size_t i = 0; i < size && batch.kind == ObjectKind::sphere; ++i)
+    batch.entering[i] = enters_ball(level, batch.ray[i], get(batch.facing, i));
   for (std::size_t i = 0; i < size; ++i) {
     if (stands_alone(level, batch.ray[i], batch.kind)) continue;
     Place place;
