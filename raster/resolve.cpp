@@ -2,25 +2,12 @@
 #include "raster/resolve.h"
 
 #include <algorithm>
-#include <cstring>
 
-#include "common/math/four.h"
 #include "common/picture/tile_pixels.h"
 #include "common/prefetch.h"
 
 namespace sidelight::raster {
 namespace {
-
-// Colours as a picture has them: x0 y0 z0 x1 ...
-void interleave(const ShadingBatch::Rgb& from, std::size_t first, std::size_t count, glm::vec3* to) {
-  std::size_t i = 0;
-  for (; i + 4 <= count; i += 4) {
-    const auto four = [&](std::size_t c) { return load_four<FourFloats>(&from[c][first + i]); };
-    const auto parts = interleaved(four(0), four(1), four(2));
-    std::memcpy(&to[i].x, parts.data(), sizeof parts);
-  }
-  for (; i < count; ++i) to[i] = get(from, first + i);
-}
 
 // What surfaces are made of: of a few megabytes all stays near from frame to frame, and to ask for it costs more than it
 // brings (README.md).

@@ -51,11 +51,14 @@ void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& 
     for (int x = 0; x < columns; x += kColumns) {
       load(X0 + x, Y0 + y, std::min(kColumns, columns - x), std::min(kRows, rows - y));
       trace_packet(isa_, prepared_, packet_, counts);
-      const auto size = static_cast<std::size_t>(packet_.size);
-      for (std::size_t i = 0; i < size; ++i)
-        hits[first + i] = {0, static_cast<std::uint32_t>(packet_.primitive[i])};
-      for (std::size_t i = 0; i < size; ++i) alone[first + i] = !packet_.asked[i];
-      first += size;
+      const auto size = static_cast<std::ptrdiff_t>(packet_.size);
+      std::transform(packet_.primitive.begin(), packet_.primitive.begin() + size, &hits[first],
+                     [](std::int32_t primitive) {
+                       return Hit{0, static_cast<std::uint32_t>(primitive)};
+                     });
+      std::transform(packet_.asked.begin(), packet_.asked.begin() + size, &alone[first],
+                     [](auto asked) { return static_cast<std::uint8_t>(!asked); });
+      first += static_cast<std::size_t>(size);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a level's rays have met: points, normals, the light that would arrive, and where rays start that leave.
 #include <algorithm>
+#include <numeric>
 
 #include "common/scene/primitive_finder.h"
 #include "raytrace/wave.h"
@@ -58,27 +59,30 @@ void Wave::find_seen_surfaces(Level& level, RenderStats& stats) {
 // Hits of the object in a row, from the first on, as far as there is room. Returns the next one.
 std::size_t Wave::add_seen(const Level& level, std::size_t first, const Object& object) {
   SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(object.kind)];
-  const std::size_t end = std::min(level.hits.size(), first + static_cast<std::size_t>(batch.room()));
-  std::size_t entry = static_cast<std::size_t>(batch.size), last = first;
+  const auto to = static_cast<std::size_t>(batch.size);
+  const std::size_t most = std::min(level.hits.size() - first, static_cast<std::size_t>(batch.room()));
+  const Hit* const hits = &level.hits[first];
+  const std::uint32_t first_primitive = object.first_primitive, primitives = object.count;
   auto runs = static_cast<std::uint32_t>(batch.runs);
   std::uint32_t before = kNone;
-  for (; last < end && level.hits[last].primitive - object.first_primitive < object.count; ++last) {
-    const std::uint32_t primitive = level.hits[last].primitive;
+  std::size_t count = 0;
+  for (; count < most && hits[count].primitive - first_primitive < primitives; ++count) {
+    const std::uint32_t primitive = hits[count].primitive;
     runs += static_cast<std::uint32_t>(primitive != before);
     before = batch.primitive[runs - 1] = primitive;
-    batch.run[entry++] = runs - 1;
+    batch.run[to + count] = runs - 1;
   }
   batch.runs = static_cast<int>(runs);
-  const auto to = static_cast<std::size_t>(batch.size), count = last - first;
   // Steps of column and row are whole numbers, exact.
   const double first_column = camera_.column_factor(camera_.n * pixels_.x0);
   const double first_row = camera_.row_factor(camera_.n * pixels_.y0);
-  for (std::size_t i = 0; i < count; ++i) batch.column[to + i] = first_column + 2 * column_[first + i];
-  for (std::size_t i = 0; i < count; ++i) batch.row[to + i] = first_row - 2 * row_[first + i];
-  for (std::size_t i = 0; i < count; ++i) batch.sample[to + i] = static_cast<std::uint32_t>(first + i);
-  for (std::size_t i = 0; i < count && batch.has_t; ++i) batch.t[to + i] = level.hits[first + i].t;
+  const double *const column = &column_[first], *const row = &row_[first];
+  for (std::size_t i = 0; i < count; ++i) batch.column[to + i] = first_column + 2 * column[i];
+  for (std::size_t i = 0; i < count; ++i) batch.row[to + i] = first_row - 2 * row[i];
+  std::iota(&batch.sample[to], &batch.sample[to] + count, static_cast<std::uint32_t>(first));
+  for (std::size_t i = 0; i < count && batch.has_t; ++i) batch.t[to + i] = hits[i].t;
   batch.size += static_cast<int>(count);
-  return last;
+  return first + count;
 }
 
 void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& stats) {
@@ -99,12 +103,16 @@ void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& st
     light_terms(isa_, prepared_.tables, shading_, eye && want_parts_, batch.lit);
   } else {
     shade(isa_, prepared_.tables, shading_, eye && want_parts_);
-    for (std::size_t i = 0; i < size; ++i) {
-      level.color[batch.ray[i]] = get(shading_.unshadowed, i);
-      if (!eye || !want_parts_) continue;
-      parts_[0][batch.ray[i]] = get(shading_.ambient_layer, i);
-      parts_[1][batch.ray[i]] = get(shading_.diffuse_layer, i);
-      parts_[2][batch.ray[i]] = get(shading_.specular_layer, i);
+    const bool neighbours = batch.ray[size - 1] - batch.ray[0] == size - 1;  // ray numbers ascend
+    const auto put = [&](Colors& to, const ShadingBatch::Rgb& from) {
+      if (neighbours) return interleave(from, 0, size, &to[batch.ray[0]]);
+      for (std::size_t i = 0; i < size; ++i) to[batch.ray[i]] = get(from, i);
+    };
+    put(level.color, shading_.unshadowed);
+    if (eye && want_parts_) {
+      put(parts_[0], shading_.ambient_layer);
+      put(parts_[1], shading_.diffuse_layer);
+      put(parts_[2], shading_.specular_layer);
     }
   }
   if (surfaces.want_leaving) find_leaving_points(level, surfaces, batch, stats);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "common/math/four.h"
 #include "common/math/max_norm.h"
 #include "common/model/shading_kernel.h"
 
@@ -118,6 +120,16 @@ void ShadingBatch::set(std::size_t i, const ShadingPoint<float>& point, std::uin
   put(facing, i, point.facing);
   put(to_viewer, i, point.to_viewer);
   material[i] = material_number;
+}
+
+void interleave(const ShadingBatch::Rgb& from, std::size_t first, std::size_t count, glm::vec3* to) {
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const auto four = [&](std::size_t c) { return load_four<FourFloats>(&from[c][first + i]); };
+    const auto parts = interleaved(four(0), four(1), four(2));
+    std::memcpy(&to[i].x, parts.data(), sizeof parts);
+  }
+  for (; i < count; ++i) to[i] = get(from, first + i);
 }
 
 void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {

@@ -73,6 +73,8 @@ struct ShadingBatch {
 inline glm::vec3 get(const ShadingBatch::Rgb& from, std::size_t i) {
   return {from[0][i], from[1][i], from[2][i]};
 }
+// Entries [first, first + count) as a picture has them, one after the other.
+void interleave(const ShadingBatch::Rgb& from, std::size_t first, std::size_t count, glm::vec3* to);
 
 // Fills the results of entries [0, size); the three parts of R if `with_parts`. The same bytes for every isa. `isa` must
 // be one the machine has.
