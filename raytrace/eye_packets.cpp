@@ -57,7 +57,7 @@ void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& 
                        return Hit{0, static_cast<std::uint32_t>(primitive)};
                      });
       std::transform(packet_.asked.begin(), packet_.asked.begin() + size, &alone[first],
-                     [](auto asked) { return static_cast<std::uint8_t>(!asked); });
+                     [](std::uint8_t asked) { return static_cast<std::uint8_t>(asked ^ 1); });
       first += static_cast<std::size_t>(size);
     }
 }

@@ -43,7 +43,7 @@ void ask_lanes(RayPacket& p, std::size_t first, std::uint32_t bits, std::uint32_
                SignCounts& counts) {
   for (; bits != 0; bits &= bits - 1) {
     const std::size_t ray = first + static_cast<std::size_t>(std::countr_zero(bits));
-    p.asked[ray] = true;
+    p.asked[ray] = 1;
     p.ask(p, ray, primitive, counts);
   }
 }

@@ -18,7 +18,7 @@ void start(RayPacket& p) {
     p.group_u[1][g] = p.group_v[1][g] = -std::numeric_limits<float>::infinity();
   }
   p.primitive.fill(-1);
-  p.asked.fill(false);
+  p.asked.fill(0);
 }
 
 void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, SignCounts& counts) {

@@ -41,7 +41,7 @@ struct RayPacket {
   // Work left of each group of shadow rays (packet_walk.h): where it falls below 0 they are left as they are by then.
   alignas(64) PerGroup<std::int32_t> budget;
   // Whether anything at all was doubtful. If not, nothing but what is kept comes near to where the ray ends.
-  PerRay<bool> asked{};
+  PerRay<std::uint8_t> asked{};
 
   // What bounds the rays: the greatest |u| and |v|, the least and the greatest of each group, and its least w.
   float extent_u = 0, extent_v = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A traced tile into the frame.
-#include <algorithm>
+#include <cstring>
 
 #include "common/picture/tile_pixels.h"
 #include "raytrace/wave.h"
@@ -13,7 +13,8 @@ const std::vector<T>& Wave::in_rows(const std::vector<T>& of, std::vector<T>& ro
   rows.resize(of.size());
   constexpr std::size_t kRun = EyePackets::kRun;
   if (columns() % kRun == 0)
-    for (std::size_t k = 0; k < of.size(); k += kRun) std::copy_n(&of[k], kRun, &rows[order_[k]]);
+    for (std::size_t k = 0; k < of.size(); k += kRun)
+      std::memcpy(static_cast<void*>(&rows[order_[k]]), &of[k], kRun * sizeof(T));
   else
     for (std::size_t k = 0; k < of.size(); ++k) rows[order_[k]] = of[k];
   return rows;
