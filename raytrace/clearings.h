@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Clearings: of a triangle, the inner part around which nothing else is, so that a hit there is known to be lone without
 // a search (lone_hit.h); and of balls what is told in ball_clearings.h. Found for what is hit again and again, as walls of
-// glass are, and kept from frame to frame. Threads share it: which of them is the first to find something changes no answer.
+// glass are, in one picture. Threads share it: which of them is the first to find something changes no answer.
 #pragma once
 
 #include <optional>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -17,13 +16,10 @@
 
 namespace sidelight::raytrace {
 
-class Clearings;
-
 class Prepared {
  public:
   explicit Prepared(const Scene& all, int threads = 1) : Prepared(all, needs_of(all), threads) {}
   Prepared(const Scene& scene, const Needs& needs, int threads = 1);
-  ~Prepared();
 
   const Scene& scene;
   Needs needs;
@@ -31,13 +27,12 @@ class Prepared {
   ShadingTablesOf<double> tables_in_double;  // for reference images
   TriangleLeaves triangles;
   SphereLeaves spheres;
-  bool all_cast_shadows = true;          // as far as materials say
-  std::vector<std::uint32_t> planes;     // primitive numbers: infinite, so met one by one
-  std::vector<std::uint32_t> solids;     // objects that bound a medium; empty where refraction is off
-  std::vector<Bounds> bounds;            // of each solid
-  std::vector<std::uint8_t> shuts_in;    // of each solid: whether no ray escapes it (enclosed.h)
-  std::vector<std::uint8_t> secluded;    // of each sphere: whether it is a solid and is_secluded()
-  std::unique_ptr<Clearings> clearings;  // added to by the frames that are drawn
+  bool all_cast_shadows = true;        // as far as materials say
+  std::vector<std::uint32_t> planes;   // primitive numbers: infinite, so met one by one
+  std::vector<std::uint32_t> solids;   // objects that bound a medium; empty where refraction is off
+  std::vector<Bounds> bounds;          // of each solid
+  std::vector<std::uint8_t> shuts_in;  // of each solid: whether no ray escapes it (enclosed.h)
+  std::vector<std::uint8_t> secluded;  // of each sphere: whether it is a solid and is_secluded()
   double reach = 0;  // greatest coordinate of all that can be met; of planes, of their points
 
   // The same, and of `origin`.

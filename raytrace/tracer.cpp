@@ -92,10 +92,11 @@ void trace_in_waves(const Prepared& prepared, const Camera& camera, const Media&
                     const RenderOptions& options, Frame& frame, std::vector<double>& cut) {
   const int edge = std::max(1, std::min(options.tile, (kWaveSamples + camera.n - 1) / camera.n));
   const int columns = (frame.width() + edge - 1) / edge, rows = (frame.height() + edge - 1) / edge;
+  Clearings clearings(prepared);
   std::vector<std::unique_ptr<Wave>> waves(static_cast<std::size_t>(thread_count(options.threads)));
   trace_parts(columns * rows, options, frame.stats, [&](int tile, int thread, RenderStats& stats) {
     std::unique_ptr<Wave>& wave = waves[static_cast<std::size_t>(thread)];
-    if (!wave) wave = std::make_unique<Wave>(prepared, camera, eye_media, options);
+    if (!wave) wave = std::make_unique<Wave>(prepared, camera, eye_media, options, clearings);
     const Rect& window = frame.window;
     const int x0 = window.x0 + tile % columns * edge, y0 = window.y0 + tile / columns * edge;
     wave->trace({x0, y0, std::min(x0 + edge, window.x1), std::min(y0 + edge, window.y1)}, stats);

@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 
 #include "common/model/visibility_float.h"
-#include "raytrace/clearings.h"
 #include "raytrace/enclosed.h"
 #include "raytrace/kernels.h"
 #include "raytrace/lone_hit.h"
@@ -95,7 +94,6 @@ Prepared::Prepared(const Scene& s, const Needs& n, int threads)
   reach = std::max(triangles.bvh.reach, spheres.bvh.reach);
   for (const Plane& plane : scene.planes) reach = reach_from(plane.point);
   secluded.resize(scene.spheres.size());
-  clearings = std::make_unique<Clearings>(*this);
   if (!scene.trace.refraction || !needs[Need::refraction]) return;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     if (scene.objects[i].solid) {
@@ -107,8 +105,6 @@ Prepared::Prepared(const Scene& s, const Needs& n, int threads)
     if (const Object& object = scene.objects[solid]; object.kind == ObjectKind::sphere)
       secluded[object.first] = is_secluded(*this, object.first_primitive);
 }
-
-Prepared::~Prepared() = default;
 
 bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
   return scene.materials[primitive_material(scene, primitive)].casts_shadow;

@@ -9,7 +9,7 @@
 namespace sidelight::raytrace {
 
 Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_media,
-           const RenderOptions& options)
+           const RenderOptions& options, Clearings& clearings)
     : prepared_(prepared),
       scene_(prepared.scene),
       camera_(camera),
@@ -24,7 +24,8 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       media_(prepared, eye_media),
       eye_packets_(prepared, camera, options.isa),
       shadow_packets_(prepared, options.isa),
-      enclosures_(prepared) {
+      enclosures_(prepared),
+      clearings_(clearings) {
   for (const Material& material : scene_.materials) shares_.push_back(shares_of(scene_, material));
   farthest_alone_ = 16 * eye_packets_.reach() / eye_packets_.ray_length();
   for (const ObjectKind kind : {ObjectKind::sphere, ObjectKind::plane, ObjectKind::mesh})
@@ -221,7 +222,7 @@ Hit Wave::first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& 
     if (!hit.found() || prepared_.solids.empty()) return hit;
     const std::uint32_t object = scene_.primitive_object[hit.primitive];
     if (!scene_.objects[object].solid) return hit;
-    const Lone lone = lone_hit(prepared_, ray.ray, hit, isa_, prepared_.clearings.get());
+    const Lone lone = lone_hit(prepared_, ray.ray, hit, isa_, &clearings_);
     alone = static_cast<std::uint8_t>(lone);
     const MediaSets::Number behind =
         lone != Lone::unknown ? media_.behind_lone(object, lone == Lone::entering, ray.media)

@@ -12,6 +12,7 @@
 #include "common/model/surface_batch.h"
 #include "common/picture/frame.h"
 #include "raytrace/ball_batch.h"
+#include "raytrace/clearings.h"
 #include "raytrace/enclosed.h"
 #include "raytrace/eye_packets.h"
 #include "raytrace/kernels.h"
@@ -79,7 +80,9 @@ bool is_entering(const Scene& scene, const Ray& ray, const Hit& hit, const glm::
 // One for each thread, for tile after tile of one picture.
 class Wave {
  public:
-  Wave(const Prepared& prepared, const Camera& camera, const Media& eye_media, const RenderOptions& options);
+  // The picture's threads share `clearings`.
+  Wave(const Prepared& prepared, const Camera& camera, const Media& eye_media, const RenderOptions& options,
+       Clearings& clearings);
 
   // Traces the samples of these pixels.
   void trace(const Rect& pixels, RenderStats& stats);
@@ -153,6 +156,7 @@ class Wave {
   double farthest_alone_ = 0;  // depth up to which Level::alone holds
   ShadowPackets shadow_packets_;
   Enclosures enclosures_;
+  Clearings& clearings_;
   ShadowQueries queries_;  // of entry i of batch b: [b kCapacity + i]
   // Likewise: the solid around it, or Enclosures::kNone; empty where there surely is none.
   std::vector<std::size_t> enclosing_;

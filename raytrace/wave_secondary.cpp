@@ -47,7 +47,7 @@ void Wave::find_senders(Level& level, const HitBatch& batch, RenderStats& stats)
     sender.solid = scene_.objects[scene_.primitive_object[hit.primitive]].solid;
     sender.lone = level.rays.empty() ? Lone::unknown : static_cast<Lone>(level.alone[number]);
     if (level.rays.empty() && sender.solid && !prepared_.solids.empty())  // EyePackets look for less
-      sender.lone = lone_hit(prepared_, ray, hit, isa_, prepared_.clearings.get());
+      sender.lone = lone_hit(prepared_, ray, hit, isa_, &clearings_);
     if (batch.kind == ObjectKind::sphere)
       sender.entering = batch.entering[i] != 0;
     else if (sender.solid)

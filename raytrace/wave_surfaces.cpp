@@ -125,7 +125,7 @@ bool Wave::stands_alone(Level& level, std::size_t ray, ObjectKind kind) {
     return !level.alone.empty() && level.alone[ray] && level.hits[ray].t < farthest_alone_;
   if (level.alone[ray] || kind == ObjectKind::plane) return level.alone[ray];
   const Hit& hit = level.hits[ray];
-  const bool clear = is_clear(prepared_, level.rays[ray].ray, hit, *prepared_.clearings, isa_);
+  const bool clear = is_clear(prepared_, level.rays[ray].ray, hit, clearings_, isa_);
   // On a solid the ray grazes, or lone_hit() would have said so: no reason to call it lone.
   level.alone[ray] = clear && !scene_.objects[scene_.primitive_object[hit.primitive]].solid;
   return clear;
