@@ -98,6 +98,44 @@ void check_lone(const Prepared& prepared, const Ray& ray, const Hit& hit, Lone l
   check_passes(prepared, place, hit, random);
 }
 
+// Balls that touch each other, from outside and from inside, or nearly so, at all distances down to rounding; a few sheets
+// and a plane. `touching`: where they do.
+Scene touching_balls(Random& random, std::vector<glm::dvec3>& touching) {
+  Scene scene = empty_scene();
+  add_sphere(scene, {random.in_box(1), random.log_uniform(0.1, 1), 0}, {});
+  const std::uint32_t balls = 2 + random.below(14);
+  for (std::uint32_t i = 0; i < balls; ++i) {
+    const Sphere ball = scene.spheres[random.below(1 + i)];
+    const double radius = ball.radius * random.log_uniform(0.1, 10), gap = random.log_uniform(1e-16, 1e-2);
+    const bool inside = random.uniform() < 0.2;
+    const glm::dvec3 to = random.direction();
+    touching.push_back(ball.center + ball.radius * to);
+    const double apart = inside ? ball.radius - radius - gap : ball.radius + radius + gap;
+    add_sphere(scene, {ball.center + (random.uniform() < 0.1 ? 0 : apart) * to, radius, 0}, {});
+  }
+  const glm::dvec3 p = touching[0];
+  if (random.uniform() < 0.2) add_plane(scene, {p, random.direction(), 0}, {});
+  if (random.uniform() < 0.2)
+    add_mesh(scene, mesh_of({p, p + 0.2 * random.direction(), p + 0.2 * random.direction()}, {{0, 1, 2}}), {},
+             {});
+  return scene;
+}
+
+// Of the primitive from a point; of a triangle, its corners.
+double distance_to(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point) {
+  const PrimitiveRef ref = primitive_ref(scene, primitive);
+  if (ref.kind == ObjectKind::sphere) {
+    const Sphere& sphere = scene.spheres[ref.index];
+    return std::abs(glm::distance(point, sphere.center) - sphere.radius);
+  }
+  if (ref.kind == ObjectKind::plane)
+    return std::abs(glm::dot(scene.planes[ref.index].normal, point - scene.planes[ref.index].point));
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t vertex : scene.triangles[ref.index].vertex)
+    least = std::min(least, glm::distance(point, scene.positions[vertex]));
+  return least;
+}
+
 }  // namespace
 
 TEST_CASE("lone hits: brute force finds nothing else there") {
@@ -140,42 +178,39 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
   CHECK(clear > hits / 8);
 }
 
-TEST_CASE("lone hits: balls that touch are clear elsewhere, as a search finds them") {
-  Random random(97);
+TEST_CASE("lone hits: where a ball is clear brute force finds nothing near") {
+  Random random(95);
   std::uint64_t hits = 0, clear = 0;
   for (std::uint64_t left = 20 + tier_count("rays_per_case") / 1000; left > 0; --left) {
-    // Around one ball up to a few more than are kept of it, which touch it from without or within.
-    Scene scene = empty_scene();
-    const Sphere middle{random.in_box(10), random.log_uniform(0.1, 10), 0};
-    add_sphere(scene, middle, {});
-    for (std::uint32_t others = random.below(19); others > 0; --others) {
-      const double radius = random.log_uniform(1e-3, 1e3) * middle.radius;
-      const double apart = random.uniform() < 0.8 ? middle.radius + radius : middle.radius - radius;
-      add_sphere(scene, {middle.center + apart * random.direction(), radius, 0}, {});
-    }
-    if (random.uniform() < 0.1)
-      add_plane(scene, {middle.center + random.in_box(30), random.direction(), 0}, {});
+    std::vector<glm::dvec3> touching;
+    Scene scene = touching_balls(random, touching);
     scene.materials[0].reflect = glm::dvec3(0.5);
     const Prepared prepared(scene);
-    Clearings clearings(prepared, 1);
     SignCounts counts;
-    for (int i = 0; i < 50; ++i) {
-      const glm::dvec3 target = middle.center + middle.radius * random.direction();
-      const glm::dvec3 from = target + random.log_uniform(1e-3, 1e3) * random.direction();
+    Clearings clearings(prepared, 1);
+    for (int i = 0; i < 200; ++i) {
+      const glm::dvec3 at = touching[random.below(static_cast<std::uint32_t>(touching.size()))];
+      const glm::dvec3 target = at + random.log_uniform(1e-8, 1) * random.direction();
+      const glm::dvec3 from = target + prepared.reach * random.log_uniform(1e-2, 3) * random.direction();
       const Ray ray = make_ray(from, target - from);
-      for (Hit hit = nearest(prepared, ray, kRayStart, counts); hit.found();
-           hit = nearest(prepared, ray, hit, counts)) {
-        ++hits;
-        if (!is_clear(prepared, ray, hit, clearings)) continue;
-        ++clear;
-        const Place place = locate(scene, ray, hit, counts);
-        for (std::uint32_t other = 0; other < scene.primitive_object.size(); ++other)
-          CHECK_FALSE(stands_near(scene, other, ray, hit, place, counts));
-        CHECK(lone_hit(prepared, ray, hit) == lone_hit(prepared, ray, hit, best_isa(), &clearings));
+      const Hit hit = nearest(prepared, ray, kRayStart, counts);
+      if (!hit.found() || primitive_ref(scene, hit.primitive).kind != ObjectKind::sphere) continue;
+      ++hits;
+      if (!is_clear(prepared, ray, hit, clearings)) continue;
+      ++clear;
+      const Place place = locate(scene, ray, hit, counts);
+      const double room = raytrace::room_for(prepared.reach_from(from), hit.t * glm::length(ray.direction));
+      std::uint64_t near = 0;
+      for (std::uint32_t other = 0; other < scene.primitive_object.size(); ++other) {
+        if (other == hit.primitive) continue;
+        near += stands_near(scene, other, ray, hit, place, counts);
+        near += distance_to(scene, other, ray.origin + hit.t * ray.direction) <= room;
       }
+      CHECK(near == 0);
     }
   }
   CHECK(clear > hits / 2);
+  CHECK(clear < hits);
 }
 
 TEST_CASE("lone hits: inside a secluded ball brute force finds its far side") {
