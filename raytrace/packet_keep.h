@@ -32,9 +32,12 @@ inline Groups all_groups(const RayPacket& p) { return ~Groups{0} >> (64 - p.grou
 template <class F, class Ask>
 Groups some_of(Groups groups, const Ask& ask) {
   constexpr Groups kSideBySide = (Groups{1} << kLanes<F>)-1;
+  // Of few questions none is left out: that costs less than a branch that is taken as it comes.
+  constexpr bool kFew = RayPacket::kGroups <= 4 * kLanes<F>;
   Groups out = 0;
+#pragma GCC unroll 4
   for (std::size_t g = 0; g < RayPacket::kGroups; g += kLanes<F>)
-    if ((groups >> g & kSideBySide) != 0) out |= Groups{ask(g)} << g;
+    if (kFew || (groups >> g & kSideBySide) != 0) out |= Groups{ask(g)} << g;
   return out & groups;
 }
 
