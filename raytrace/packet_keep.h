@@ -102,18 +102,26 @@ void update_least(RayPacket& p, Groups groups) {
   }
 }
 
+// What is still to be visited: a node or a leaf, and the groups that may meet something there.
+struct PacketEntry {
+  float depth;
+  std::uint32_t first, count;
+  Groups groups;
+};
+
 inline bool casts_none(const Prepared& prepared, const RayPacket& p, std::uint32_t primitive) {
   if (!p.any_hit || p.all_cast) return false;
   return !prepared.scene.materials[primitive_material(prepared.scene, primitive)].casts_shadow;
 }
 
-// ---- The items of a leaf side by side, and groups of rays ----
+// ---- The items of a leaf, or of two, side by side, and groups of rays ----
 
-using PerItem = std::array<float, Bvh::kMaxLeaf>;
+constexpr std::size_t kLeavesTogether = 2, kMaxItems = kLeavesTogether * Bvh::kMaxLeaf;
+using PerItem = std::array<float, kMaxItems>;
 
 // Sets what hides a primitive from rays where it casts no shadow and is asked for one.
 inline void hide_what_casts_none(const Prepared& prepared, const RayPacket& p,
-                                 const std::uint32_t* primitives, std::uint32_t count, PerItem& row,
+                                 const std::uint32_t* primitives, std::uint32_t count, float* row,
                                  float hidden) {
   if (!p.any_hit || p.all_cast) return;
   for (std::uint32_t i = 0; i < count; ++i)
@@ -121,7 +129,7 @@ inline void hide_what_casts_none(const Prepared& prepared, const RayPacket& p,
 }
 
 // An item, and rays from this one on: i * kCapacity + ray.
-using Pairs = std::array<std::int32_t, Bvh::kMaxLeaf * RayPacket::kCapacity + RayPacket::kGroups>;
+using Pairs = std::array<std::int32_t, kMaxItems * RayPacket::kCapacity + RayPacket::kGroups>;
 struct ItemAndRay {
   std::size_t i, ray;
 };

@@ -9,7 +9,7 @@
 namespace sidelight::raytrace {
 
 // A plane is a triangle without edges.
-template <class F, class B>
+template <class F>
 void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive, SignCounts& counts) {
   if (casts_none(prepared, p, primitive)) return;
   const Plane& plane = prepared.scene.planes[primitive_ref(prepared.scene, primitive).index];
@@ -38,7 +38,7 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
   s.low_u.fill(kInfinity);
   s.low_u[0] = s.low_v[0] = -kFar;
   s.high_u[0] = s.high_v[0] = kFar;
-  test_set_up<F, B>(p, s, all_groups(p), &primitive, counts);
+  test_set_up<F>(p, s, all_groups(p), {&primitive}, counts);
 }
 
 template <class D>
@@ -56,7 +56,7 @@ template <class F, class B, class D>
 void meet_all(const Prepared& prepared, RayPacket& p, SignCounts& counts) {
   if (p.groups == 0) return;
   const PacketAxes axes = packet_axes(p);
-  for (const std::uint32_t plane : prepared.planes) test_plane<F, B>(prepared, p, plane, counts);
+  for (const std::uint32_t plane : prepared.planes) test_plane<F>(prepared, p, plane, counts);
   walk_packet<F, B, D>(prepared, axes, prepared.triangles, p, counts);
   if (prepared.spheres.bvh.nodes.empty()) return;
   find_squares<D>(p);

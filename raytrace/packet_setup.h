@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles as the rays of a packet see them, up to eight of a leaf side by side: edge functions and 1/t over (u, v), and
+// Triangles as the rays of a packet see them, those of two leaves side by side: edge functions and 1/t over (u, v), and
 // the rectangle of (u, v) that holds the triangle, in float with bounds. See packet_kernel.h.
 //
 // A place x relative to the origin is written in the packet's own axes, x = s (W + u U + v V), as q = (s u, s v, s): what
@@ -53,7 +53,7 @@ inline PacketAxes packet_axes(const RayPacket& p) {
 
 constexpr float kFar = 1e30f;  // farther than any u and v
 
-// Of the triangles of a leaf.
+// Of the triangles of some leaves, each leaf's from a multiple of kMaxLeaf on.
 struct LeafSetup {
   alignas(64) std::array<PerItem, 3> x, y, c;  // E_k = x u + y v + c up to a positive factor, up to 1
   alignas(64) PerItem doubt;  // an |E_k| not above it may have either sign; 2 where the side is not sure
@@ -185,10 +185,10 @@ void set_up_edges(const RayPacket& p, const PacketAxes& axes, const std::array<V
   store(to_float<D>(select<D>(plane.sure, doubt + D(0x1p-21), D(2))), &out.doubt[lane]);
 }
 
-// Triangles from `lane` on, of the `count` of a leaf. Whether there is anything to ask of them.
+// Triangles from `lane` on, of the `count` of a leaf, to `at`. Whether there is anything to ask of them.
 template <class D>
 bool set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
-                      std::size_t lane, LeafSetup& out) {
+                      std::size_t lane, std::size_t at, LeafSetup& out) {
   const auto corner = [&](std::uint32_t k) {
     const double* row = leaf + lane + 3 * k * count;
     return Vec3<D>{load<D>(row), load<D>(row + count), load<D>(row + 2 * count)};
@@ -204,21 +204,22 @@ bool set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* 
   const Vec3<D> q0 = in_axes(a0), q1 = in_axes(e1), q2 = in_axes(e2);
   const std::array<Vec3<D>, 3> q{q0, q0 + q1, q0 + q2};
   const Mask<D> asked = lane_numbers<D>() < D(static_cast<double>(count) - static_cast<double>(lane));
-  if (!set_up_rectangle<D>(p, axes, q, l, asked, lane, out)) return false;
-  const PlaneSetup<D> plane = set_up_depth<D>(p, axes, q0, fused_cross(q1, q2), l, m, lane, out);
-  set_up_edges<D>(p, axes, q, l, plane, lane, out);
+  if (!set_up_rectangle<D>(p, axes, q, l, asked, at, out)) return false;
+  const PlaneSetup<D> plane = set_up_depth<D>(p, axes, q0, fused_cross(q1, q2), l, m, at, out);
+  set_up_edges<D>(p, axes, q, l, plane, at, out);
   return true;
 }
 
+// A leaf's, to `at`.
 template <class D>
 bool set_up_leaf(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
-                 LeafSetup& out) {
+                 std::size_t at, LeafSetup& out) {
   bool any_asked = false;
   for (std::size_t lane = 0; lane < Bvh::kMaxLeaf; lane += kLanes<D>)
     if (lane < count)
-      any_asked |= set_up_triangles<D>(p, axes, leaf, count, lane, out);
+      any_asked |= set_up_triangles<D>(p, axes, leaf, count, lane, at + lane, out);
     else
-      std::fill_n(&out.low_u[lane], kLanes<D>, std::numeric_limits<float>::infinity());
+      std::fill_n(&out.low_u[at + lane], kLanes<D>, std::numeric_limits<float>::infinity());
   return any_asked;
 }
 

@@ -121,15 +121,16 @@ bool test_sphere(RayPacket& p, const SphereSetup& s, std::size_t i, std::size_t 
 }
 
 template <class F, class B, class D>
-void test_leaf(const Prepared& prepared, const PacketAxes&, const SphereLeaves& leaves, std::uint32_t first,
-               std::uint32_t count, Groups groups, RayPacket& p, SignCounts& counts) {
+void test_leaves(const Prepared& prepared, const PacketAxes&, const SphereLeaves& leaves,
+                 std::span<const PacketEntry> one, RayPacket& p, SignCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
+  auto [depth, first, count, groups] = one.front();
   const std::uint32_t* primitives = &leaves.bvh.items[first];
   SphereSetup setup;
   setup.b_error.fill(-std::numeric_limits<float>::infinity());
   for (std::size_t lane = 0; lane < count; lane += kLanes<D>)
     set_up_spheres<D>(p, leaves.leaf(first), count, lane, setup);
-  hide_what_casts_none(prepared, p, primitives, count, setup.b_error,
+  hide_what_casts_none(prepared, p, primitives, count, setup.b_error.data(),
                        -std::numeric_limits<float>::infinity());
   Pairs near;
   std::size_t size = 0;

@@ -129,6 +129,9 @@ void prefetch(const Tree& leaves, std::uint32_t first, std::uint32_t count) {
 // A leaf in steps of RayPacket::budget.
 template <class Tree>
 constexpr std::int32_t kLeafWork = std::is_same_v<Tree, SphereLeaves> ? 4 : 1;
+// How many leaves are tested together.
+template <class Tree>
+constexpr std::size_t kTogether = std::is_same_v<Tree, SphereLeaves> ? 1 : kLeavesTogether;
 
 // Takes a leaf off the budgets of these groups. Returns those that can afford it; the others are done.
 template <class F>
@@ -146,12 +149,6 @@ Groups spend(RayPacket& p, Groups groups, std::int32_t work) {
   return groups & ~over;
 }
 
-// What is still to be visited: nodes and leaves, and the groups that may meet something there.
-struct PacketEntry {
-  float depth;
-  std::uint32_t first, count;
-  Groups groups;
-};
 struct PacketStack {
   std::array<PacketEntry, Bvh::kMaxDepth*(BvhNode::kWidth - 1) + 1> entry;
   std::size_t size = 0;
@@ -185,7 +182,12 @@ void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& l
   PacketStack stack;
   stack.entry[stack.size++] = {0, 0, 0, all_groups(p)};
   std::array<PacketEntry, kAhead> waiting;
-  std::size_t arrived = 0, done = 0;
+  std::array<PacketEntry, kTogether<Tree>> ready;
+  std::size_t arrived = 0, done = 0, ready_size = 0;
+  const auto test_ready = [&] {
+    test_leaves<F, B, D>(prepared, axes, leaves, std::span(ready.data(), ready_size), p, counts);
+    ready_size = 0;
+  };
   while (stack.size > 0 || done < arrived) {
     const bool is_leaf = stack.size == 0 || arrived - done == kAhead;
     const PacketEntry top = is_leaf ? waiting[done++ % kAhead] : stack.entry[--stack.size];
@@ -193,7 +195,8 @@ void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& l
     if (groups == 0) continue;
     if (is_leaf) {
       if (p.any_hit) groups = spend<F>(p, groups, kLeafWork<Tree>);
-      if (groups != 0) test_leaf<F, B, D>(prepared, axes, leaves, top.first, top.count, groups, p, counts);
+      if (groups != 0) ready[ready_size++] = {top.depth, top.first, top.count, groups};
+      if (ready_size == kTogether<Tree>) test_ready();
     } else if (top.count > 0) {
       prefetch(leaves, top.first, top.count);
       waiting[arrived++ % kAhead] = top;
@@ -202,6 +205,7 @@ void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& l
       push_children<F, B>(leaves, leaves.bvh.nodes[top.first], bounds, groups, stack);
     }
   }
+  if (ready_size > 0) test_ready();
 }
 
 }  // namespace sidelight::raytrace
