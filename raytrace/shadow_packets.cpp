@@ -114,14 +114,16 @@ ShadowPackets::Extent ShadowPackets::group_at(std::size_t first) const {
 // The groups of the places as they stand, and their area.
 float ShadowPackets::find_groups() {
   constexpr std::size_t kGroup = RayPacket::kGroup;
-  groups_.clear();
-  whole_ = Extent();
+  groups_.resize((places_.size() + kGroup - 1) / kGroup);
+  Extent whole;
   float filled = 0;
-  for (std::size_t at = 0; at < places_.size(); at += kGroup) {
-    groups_.push_back(group_at(at));
-    whole_.grow(groups_.back());
-    filled += groups_.back().area();
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Extent group = group_at(g * kGroup);
+    groups_[g] = group;
+    whole.grow(group);
+    filled += group.area();
   }
+  whole_ = whole;
   return filled;
 }
 
@@ -202,11 +204,16 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vecto
   start(packet_);
   packet_.budget.fill(queries_->seen_by_eye ? kGroupWork : kSecondaryGroupWork);
   trace_packet(isa_, prepared_, packet_, counts);
+  // (Bytes may be part of anything: told apart, nothing is read again after each.)
+  std::uint8_t* const dark_of = dark.data();
+  const std::int32_t* const number = number_.data();
   for (std::size_t i = 0; i < size; ++i)
-    dark[static_cast<std::size_t>(number_[i])] = packet_.primitive[i] >= 0;
-  for (std::size_t i = 0; i < size; ++i)
-    if (packet_.primitive[i] < 0 && packet_.budget[i / kGroup] < 0)
-      leave(static_cast<std::size_t>(number_[i]));
+    dark_of[static_cast<std::size_t>(number[i])] = packet_.primitive[i] >= 0;
+  for (std::size_t g = 0; g < last - first; ++g) {
+    if (packet_.budget[g] >= 0) continue;
+    for (std::size_t i = g * kGroup; i < std::min(size, (g + 1) * kGroup); ++i)
+      if (packet_.primitive[i] < 0) leave(static_cast<std::size_t>(number_[i]));
+  }
 }
 
 // A ray that goes without a packet.
