@@ -2,6 +2,7 @@
 // A packet down a hierarchy. See packet_kernel.h.
 #pragma once
 
+#include "common/prefetch.h"
 #include "raytrace/packet_spheres.h"
 #include "raytrace/packet_triangles.h"
 
@@ -116,16 +117,15 @@ Groups groups_beyond(const RayPacket& p, float depth, Groups groups) {
   });
 }
 
-// All lines of a node, or of a leaf: they will be asked for soon, and where the tree is large, they are far away. (Of a
-// function that does nothing else GCC 12 drops calls, as if it did nothing.)
+// All lines of a node, or of a leaf: they will be asked for soon, and where the tree is large, they are far away.
 template <class Tree>
-[[gnu::always_inline]] inline void prefetch(const Tree& leaves, std::uint32_t first, std::uint32_t count) {
+void fetch_ahead(const Tree& leaves, std::uint32_t first, std::uint32_t count) {
   constexpr std::size_t kLine = 64;
   const auto* from = count == 0 ? reinterpret_cast<const char*>(&leaves.bvh.nodes[first])
                                 : reinterpret_cast<const char*>(leaves.leaf(first));
   const std::size_t size = count == 0 ? sizeof(BvhNode) : Tree::kRowCount * sizeof(double) * count;
-  for (std::size_t at = 0; at < size; at += kLine) __builtin_prefetch(from + at);
-  if (count != 0) __builtin_prefetch(&leaves.bvh.items[first]);
+  for (std::size_t at = 0; at < size; at += kLine) prefetch(from + at);
+  if (count != 0) prefetch(&leaves.bvh.items[first]);
 }
 
 // A leaf in steps of RayPacket::budget.
@@ -167,7 +167,7 @@ void push_children(const Tree& leaves, const BvhNode& node, const PacketBounds& 
     const Groups within = groups_within<F>(bounds, seen, i, groups);
     if (within == 0) continue;
     const PacketEntry child{seen.depth[i], node.first[i], node.count[i], within};
-    if (child.count == 0) prefetch(leaves, child.first, 0);
+    if (child.count == 0) fetch_ahead(leaves, child.first, 0);
     std::size_t at = stack.size++;
     for (; at > base && stack.entry[at - 1].depth <= child.depth; --at) stack.entry[at] = stack.entry[at - 1];
     stack.entry[at] = child;
@@ -200,7 +200,7 @@ void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& l
       if (groups != 0) ready[ready_size++] = {top.depth, top.first, top.count, groups};
       if (ready_size == kTogether<Tree>) test_ready();
     } else if (top.count > 0) {
-      prefetch(leaves, top.first, top.count);
+      fetch_ahead(leaves, top.first, top.count);
       waiting[arrived++ % kAhead] = top;
     } else {
       ++counts.nodes;
