@@ -14,8 +14,8 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <span>
-#include <vector>
 
+#include "common/kept_memory.h"
 #include "common/math/isa.h"
 #include "common/model/visibility.h"
 
@@ -47,17 +47,20 @@ struct alignas(64) BvhNode {
 static_assert(sizeof(BvhNode) == 256);
 
 struct Bvh {
-  std::vector<BvhNode> nodes;        // nodes[0] is the root; empty for no boxes
-  std::vector<std::uint32_t> items;  // what was built over, leaf by leaf
+  KeptArray<BvhNode> nodes;        // nodes[0] is the root; empty for no boxes
+  KeptArray<std::uint32_t> items;  // what was built over, leaf by leaf
   glm::dvec3 center{0};  // what the nodes' boxes are relative to; 0 along axes that cross the world's
   double reach = 0;      // greatest coordinate of any box
   static constexpr std::uint32_t kMaxLeaf = 8;
   static constexpr int kMaxDepth = 64;  // nodes above any leaf
 };
 
-// box_of(item), for each of `items`, is finite; it is called from several threads. The same for any number of threads.
-Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uint32_t)>& box_of,
-              int threads = 1);
+// Writes the boxes of these items, one after another. They are finite.
+using BoxesOf = std::function<void(std::span<const std::uint32_t> items, Box* boxes)>;
+
+// boxes_of is called from several threads, and twice for each item: boxes as doubles would be as much memory as all that
+// the builder holds besides. The same for any number of threads.
+Bvh build_bvh(std::span<const std::uint32_t> items, const BoxesOf& boxes_of, int threads = 1);
 
 // What a traversal does with a leaf, items[first, first + count): returns the new limit, negative to stop.
 struct LeafVisitor {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <memory>
 
 #include "common/parallel.h"
 #include "raytrace/bvh.h"
@@ -27,7 +26,7 @@ class Builder {
     Range range;
     std::uint32_t node, slot;  // whose child it is
   };
-  std::uint32_t build(const Range& range, std::vector<BvhNode>& nodes, std::vector<Task>* tasks,
+  std::uint32_t build(const Range& range, KeptArray<BvhNode>& nodes, std::vector<Task>* tasks,
                       std::uint32_t task_size) {
     const auto node = static_cast<std::uint32_t>(nodes.size());
     nodes.emplace_back();
@@ -152,11 +151,13 @@ class Builder {
   // number of those on the left.
   std::uint32_t partition(const Range& range, const Binning& binning, const Split& split) {
     const auto axis = static_cast<std::size_t>(split.axis);
+    const float from = binning.from[axis], per_width = binning.per_width[axis];
     Reference *left = references_ + range.first, *right = spare_ + range.first;
     for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
       const Reference reference = references_[k];
-      const bool goes_left = binning.of(reference.box())[axis] < split.bin;
-      *left = *right = reference;
+      const bool goes_left = Binning::of(references_[k].center(axis), from, per_width) < split.bin;
+      *left = reference;
+      *right = reference;
       left += goes_left;
       right += !goes_left;
     }
@@ -169,11 +170,11 @@ class Builder {
     const Quad width = range.boxes.high - range.boxes.low;
     const std::size_t axis =
         width[0] >= width[1] ? (width[0] >= width[2] ? 0 : 2) : (width[1] >= width[2] ? 1 : 2);
-    std::nth_element(
-        begin, begin + range.count / 2, begin + range.count, [&](const Reference& a, const Reference& b) {
-          const float center_a = a.low[axis] + a.high[axis], center_b = b.low[axis] + b.high[axis];
-          return center_a < center_b || (center_a == center_b && a.item < b.item);
-        });
+    std::nth_element(begin, begin + range.count / 2, begin + range.count,
+                     [&](const Reference& a, const Reference& b) {
+                       const float center_a = a.center(axis), center_b = b.center(axis);
+                       return center_a < center_b || (center_a == center_b && a.item() < b.item());
+                     });
     return range.count / 2;
   }
 
@@ -191,23 +192,24 @@ class Builder {
   float unit_;
 };
 
-// body(block, item) for all items, block by block in parallel.
-constexpr int kBlock = 4096;
+// body(block, first, boxes) for all items, block by block in parallel; boxes[0] is that of items[first].
 template <class Body>
-void for_each_item(std::size_t items, int threads, const Body& body) {
-  const auto size = static_cast<int>(items);
-  parallel_for((size + kBlock - 1) / kBlock, threads, [&](int block, int) {
-    for (int i = block * kBlock; i < std::min(size, (block + 1) * kBlock); ++i)
-      body(static_cast<std::size_t>(block), static_cast<std::size_t>(i));
+void for_boxes(std::span<const std::uint32_t> items, const BoxesOf& boxes_of, int threads, const Body& body) {
+  parallel_blocks(items.size(), threads, [&](std::size_t block, std::size_t first, std::size_t last) {
+    KeptArray<Box> boxes(last - first);
+    boxes_of(items.subspan(first, last - first), boxes.data());
+    body(block, first, boxes);
   });
 }
 
 // Where the boxes are. A tree far from the world's origin is kept relative to its middle.
-void place(Bvh& bvh, const std::vector<std::uint32_t>& items, const std::function<Box(std::uint32_t)>& box_of,
-           int threads) {
-  std::vector<Box> of_block(items.size() / kBlock + 1);
-  for_each_item(items.size(), threads,
-                [&](std::size_t block, std::size_t i) { of_block[block].grow(box_of(items[i])); });
+void place(Bvh& bvh, std::span<const std::uint32_t> items, const BoxesOf& boxes_of, int threads) {
+  std::vector<Box> of_block(blocks_of(items.size()));
+  for_boxes(items, boxes_of, threads, [&](std::size_t block, std::size_t, const KeptArray<Box>& boxes) {
+    Box all;
+    for (const Box& box : boxes) all.grow(box);
+    of_block[block] = all;
+  });
   Box world;
   for (const Box& box : of_block) world.grow(box);
   for (int axis = 0; axis < 3; ++axis) {
@@ -218,17 +220,19 @@ void place(Bvh& bvh, const std::vector<std::uint32_t>& items, const std::functio
 }
 
 // All items as one range, their boxes relative to `center`.
-Range refer(const std::vector<std::uint32_t>& items, const std::function<Box(std::uint32_t)>& box_of,
-            const glm::dvec3& center, int threads, Reference* references) {
-  std::vector<Range> of_block(items.size() / kBlock + 1);
-  for_each_item(items.size(), threads, [&](std::size_t block, std::size_t i) {
-    const Box box = box_of(items[i]);
-    const glm::dvec3 low = box.low - center, high = box.high - center;
-    references[i] = {{round_down(low.x), round_down(low.y), round_down(low.z), 0},
-                     {round_up(high.x), round_up(high.y), round_up(high.z)},
-                     items[i]};
-    of_block[block].boxes.grow(references[i].box());
-    of_block[block].centers.grow(center_of(references[i].box()));
+Range refer(std::span<const std::uint32_t> items, const BoxesOf& boxes_of, const glm::dvec3& center,
+            int threads, Reference* references) {
+  std::vector<Range> of_block(blocks_of(items.size()));
+  for_boxes(items, boxes_of, threads, [&](std::size_t block, std::size_t first, const KeptArray<Box>& boxes) {
+    Range part;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Bounds box{round_down(difference(boxes[i].low, center)),
+                       round_up(difference(boxes[i].high, center))};
+      references[first + i] = {items[first + i], box};
+      part.boxes.grow(box);
+      part.centers.grow(center_of(box));
+    }
+    of_block[block] = part;
   });
   Range all;
   all.count = static_cast<std::uint32_t>(items.size());
@@ -240,11 +244,11 @@ Range refer(const std::vector<std::uint32_t>& items, const std::function<Box(std
 }
 
 // The upper levels here, then the subtrees below them in parallel; which they are depends on the items alone.
-void build_nodes(Builder& builder, const Range& all, int threads, std::vector<BvhNode>& nodes) {
+void build_nodes(Builder& builder, const Range& all, int threads, KeptArray<BvhNode>& nodes) {
   constexpr std::uint32_t kTaskSize = 8192;
   std::vector<Builder::Task> tasks;
   builder.build(all, nodes, &tasks, kTaskSize);
-  std::vector<std::vector<BvhNode>> subtrees(tasks.size());
+  std::vector<KeptArray<BvhNode>> subtrees(tasks.size());
   parallel_for(static_cast<int>(tasks.size()), threads, [&](int i, int) {
     const auto task = static_cast<std::size_t>(i);
     builder.build(tasks[task].range, subtrees[task], nullptr, 0);
@@ -261,19 +265,18 @@ void build_nodes(Builder& builder, const Range& all, int threads, std::vector<Bv
 
 }  // namespace
 
-Bvh build_bvh(std::vector<std::uint32_t> items, const std::function<Box(std::uint32_t)>& box_of,
-              int threads) {
+Bvh build_bvh(std::span<const std::uint32_t> items, const BoxesOf& boxes_of, int threads) {
   Bvh bvh;
   if (items.empty()) return bvh;
-  place(bvh, items, box_of, threads);
-  const auto storage = std::make_unique_for_overwrite<Reference[]>(2 * items.size());
-  const Range all = refer(items, box_of, bvh.center, threads, storage.get());
+  place(bvh, items, boxes_of, threads);
+  KeptArray<Reference> references(2 * items.size());
+  const Range all = refer(items, boxes_of, bvh.center, threads, references.data());
   const Quad extent = all.boxes.high - all.boxes.low;
   const float longest = std::max({extent[0], extent[1], extent[2]});
-  Builder builder(storage.get(), storage.get() + items.size(), longest > 0 ? 1 / longest : 1);
+  Builder builder(references.data(), references.data() + items.size(), longest > 0 ? 1 / longest : 1);
   build_nodes(builder, all, threads, bvh.nodes);
-  for (std::size_t i = 0; i < items.size(); ++i) items[i] = storage[i].item;
-  bvh.items = std::move(items);
+  bvh.items.resize(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) bvh.items[i] = references[i].item();
   return bvh;
 }
 

@@ -4,8 +4,6 @@
 // place, in whole vectors, and takes no more room than its primitives do.
 #pragma once
 
-#include <memory>
-
 #include "common/model/visibility.h"
 #include "raytrace/bvh.h"
 
@@ -17,10 +15,10 @@ struct Leaves {
   static constexpr int kRowCount = kRows;
   static constexpr std::uint32_t kPadding = 16;  // doubles behind the last leaf: vectors may be read past it
   Bvh bvh;                                       // its items are numbers of primitives
-  std::unique_ptr<double[]> rows;
+  KeptArray<double> rows;
 
   // Row r of the leaf [first, first + count) begins at + r * count.
-  const double* leaf(std::uint32_t first) const { return rows.get() + std::size_t{kRows} * first; }
+  const double* leaf(std::uint32_t first) const { return rows.data() + std::size_t{kRows} * first; }
 };
 using TriangleLeaves = Leaves<9>;  // v0, v1, v2
 using SphereLeaves = Leaves<4>;    // center, radius

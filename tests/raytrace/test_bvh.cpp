@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <set>
 
@@ -22,10 +23,13 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-Bvh bvh_over(const std::vector<Box>& boxes) {
+Bvh bvh_over(const std::vector<Box>& boxes, int threads = 1) {
   std::vector<std::uint32_t> items(boxes.size());
   std::iota(items.begin(), items.end(), 0u);
-  return raytrace::build_bvh(items, [&](std::uint32_t i) { return boxes[i]; });
+  const auto boxes_of = [&](std::span<const std::uint32_t> some, Box* to) {
+    for (const std::uint32_t item : some) *to++ = boxes[item];
+  };
+  return raytrace::build_bvh(items, boxes_of, threads);
 }
 
 std::vector<Isa> isas() {
@@ -199,4 +203,38 @@ TEST_CASE("boxes of one centre, on a line, at a point or exponentially spaced st
     spaced.push_back(cube_at({std::exp2(-i), 0, 0}, 0));  // each bin but one is empty, again and again
   }
   for (const std::vector<Box>* boxes : {&same, &line, &points, &nested, &spaced}) check_depth(*boxes);
+}
+
+// Several blocks of boxes, several subtrees apart from the upper levels.
+TEST_CASE(
+    "bvh: the tree is the same for any number of threads, and each item is in one leaf and in its box") {
+  Random random(5);
+  std::vector<Box> boxes;
+  for (int i = 0; i < 30'001; ++i)
+    boxes.push_back(cube_at(glm::dvec3(5, 0, 0) + random.in_box(3), random.uniform(0, 0.1)));
+  const Bvh one = bvh_over(boxes);
+  for (const int threads : {2, 3, 8}) {
+    const Bvh many = bvh_over(boxes, threads);
+    CHECK(many.items == one.items);
+    CHECK(many.center == one.center);
+    CHECK(many.reach == one.reach);
+    REQUIRE(many.nodes.size() == one.nodes.size());
+    CHECK(std::memcmp(many.nodes.data(), one.nodes.data(), one.nodes.size() * sizeof(one.nodes[0])) == 0);
+  }
+  std::vector<int> times(boxes.size(), 0);
+  std::uint64_t outside = 0;
+  for (const raytrace::BvhNode& node : one.nodes)
+    for (std::size_t slot = 0; slot < raytrace::BvhNode::kWidth; ++slot)
+      for (std::uint32_t i = node.first[slot]; i < node.first[slot] + node.count[slot]; ++i) {
+        const std::uint32_t item = one.items[i];
+        ++times[item];
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto face = static_cast<std::size_t>(axis);
+          outside += static_cast<double>(node.face[face][slot]) > boxes[item].low[axis] - one.center[axis];
+          outside +=
+              static_cast<double>(node.face[face + 3][slot]) < boxes[item].high[axis] - one.center[axis];
+        }
+      }
+  CHECK(times == std::vector<int>(boxes.size(), 1));
+  CHECK(outside == 0);
 }
