@@ -94,6 +94,11 @@ class Builder {
   // Large ranges are judged by a sample of about this many items: their bins hold enough of them.
   static constexpr std::uint32_t kSample = 2048;
 
+  // A leaf is asked in whole vectors, and costs the same however few items it has: full ones are worth more.
+  static float leaves_of(std::uint32_t items) {
+    return static_cast<float>((items + Bvh::kMaxLeaf - 1) / Bvh::kMaxLeaf);
+  }
+
   Split best_split(const Range& range, const Binning& binning) const {
     std::array<std::array<std::uint32_t, kMostBins>, 3> counts{};
     Bins boxes;
@@ -121,7 +126,7 @@ class Builder {
       for (std::size_t bin = binning.bins - 1; bin > 0; --bin) {
         box.grow(boxes.of[axis][bin]);
         items += counts[axis][bin];
-        right_cost[bin] = box.half_area(unit_) * static_cast<float>(items);
+        right_cost[bin] = box.half_area(unit_) * leaves_of(items * step);
       }
       box = {};
       items = 0;
@@ -129,7 +134,7 @@ class Builder {
         box.grow(boxes.of[axis][bin - 1]);
         items += counts[axis][bin - 1];
         if (items == 0 || items == sampled) continue;
-        const float cost = box.half_area(unit_) * static_cast<float>(items) + right_cost[bin];
+        const float cost = box.half_area(unit_) * leaves_of(items * step) + right_cost[bin];
         if (cost < best.cost) best = {static_cast<int>(axis), static_cast<int>(bin), cost};
       }
     }
