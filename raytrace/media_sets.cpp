@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "raytrace/media_sets.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace sidelight::raytrace {
@@ -9,12 +10,13 @@ MediaSets::MediaSets(const Prepared& prepared, Media first) : prepared_(prepared
   number_of(std::move(first));
 }
 
-void MediaSets::clear() {
-  const Media first = sets_[0].media;
-  sets_.clear();
+void MediaSets::keep(std::span<Number* const> numbers) {
+  const std::vector<Set> before = std::exchange(sets_, {});
   numbers_.clear();
   crossings_.fill({});
-  number_of(first);
+  number_of(before[0].media);
+  for (Number* const number : numbers) *number = number_of(before[*number].media);
+  full_ = std::max(kFull, 2 * sets_.size());
 }
 
 MediaSets::Number MediaSets::number_of(const Media& media) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "raytrace/media.h"
@@ -18,8 +19,11 @@ class MediaSets {
   // `first` is number 0.
   MediaSets(const Prepared& prepared, Media first);
 
-  // Forgets all sets but the first.
-  void clear();
+  // Forgets all sets but the first and these, which get new numbers.
+  void keep(std::span<Number* const> numbers);
+  void clear() { keep({}); }
+  // Whether there are so many that those should be forgotten which no ray has any more.
+  bool full() const { return sets_.size() >= full_; }
 
   // Until another set is added.
   const Media& operator[](Number media) const { return sets_[media].media; }
@@ -33,6 +37,7 @@ class MediaSets {
 
  private:
   static constexpr std::size_t kRemembered = 256;
+  static constexpr std::size_t kFull = 4096;
 
   struct Set {
     Media media;
@@ -46,6 +51,7 @@ class MediaSets {
 
   const Prepared& prepared_;
   std::vector<Set> sets_;
+  std::size_t full_ = kFull;
   std::map<Media, Number> numbers_;
   std::array<Crossing, kRemembered> crossings_;  // the last ones
 };

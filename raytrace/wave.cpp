@@ -81,7 +81,17 @@ bool Wave::take_part(std::size_t depth) {
     level.rays.assign(first, level.waiting.end());
     level.waiting.erase(first, level.waiting.end());
   }
+  if (media_.full()) forget_media();
   return !level.rays.empty();
+}
+
+// All sets of media that no ray has any more: in a crowd of glass there are others at every hit.
+void Wave::forget_media() {
+  std::vector<MediaSets::Number*> numbers;
+  for (Level& level : levels_)
+    for (std::vector<WaveRay>* rays : {&level.rays, &level.waiting})
+      for (WaveRay& ray : *rays) numbers.push_back(&ray.media);
+  media_.keep(numbers);
 }
 
 void Wave::begin(const Rect& pixels) {

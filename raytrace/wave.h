@@ -104,6 +104,7 @@ class Wave {
   void take_primary(std::vector<Hit>& hits) const;
   void trace_level(std::size_t depth, RenderStats& stats);
   bool take_part(std::size_t depth);
+  void forget_media();
   void find_hits(Level& level, bool eye, RenderStats& stats);
   void find_first_hits(Level& level, RenderStats& stats);
   void find_own_hits(Level& level, RenderStats& stats);

@@ -49,8 +49,14 @@ TEST_CASE("media sets: numbers are crossed as their sets are") {
       CHECK(sets[number].certain() == media.certain());
       CHECK(sets.number_of(media) == number);
     }
-    sets.clear();
+    // Those of half the rays are kept, by other numbers.
+    std::vector<MediaSets::Number*> numbers;
+    for (std::size_t i = 0; i < rays.size(); i += 2) numbers.push_back(&rays[i].first);
+    sets.keep(numbers);
+    for (std::size_t i = 0; i < rays.size(); i += 2) CHECK(equal(sets[rays[i].first], rays[i].second));
     CHECK(equal(sets[0], first));
+    CHECK(!sets.full());
+    if (round == 1) sets.clear();
   }
 }
 
