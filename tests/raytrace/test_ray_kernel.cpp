@@ -216,6 +216,43 @@ TEST_CASE("BVH: shadow rays of a bundle are blocked where they are alone, on eve
   CHECK(blocked > asked / 10);
 }
 
+// Balls whose near ends are at the light, just before it or just beyond it, at all distances down to rounding.
+TEST_CASE("BVH: balls next to a light block the rays of a bundle that meet them before it") {
+  Random random(82);
+  std::uint64_t differing = 0, blocked = 0, asked = 0;
+  for (std::uint64_t left = 50 + tier_count("rays_per_case") / 100; left > 0; --left) {
+    Scene scene = empty_scene();
+    const glm::dvec3 light = random.log_uniform(1e-3, 1e3) * random.direction(), to = random.direction();
+    const double way = random.log_uniform(1e-2, 1e2);
+    for (int i = 0; i < 4; ++i) {
+      const double radius = way * random.log_uniform(1e-3, 10), gap = way * random.log_uniform(1e-17, 1e-3);
+      add_sphere(scene, {light + (radius + (i % 2 == 0 ? gap : -gap)) * to, radius, 0}, {});
+      if (random.uniform() < 0.7) break;
+    }
+    const Prepared prepared(scene);
+    std::vector<raytrace::ShadowQuestion> questions(20);
+    for (auto& question : questions) {
+      const glm::dvec3 origin = light - way * (to + random.log_uniform(1e-9, 0.1) * random.direction());
+      question.ray = make_ray(origin, light - origin);
+    }
+    for (const Isa isa : kIsas) {
+      if (!machine_has(isa)) continue;
+      auto bundled = questions;
+      SignCounts counts;
+      find_blocked(prepared, bundled, &light, counts, isa);
+      for (std::size_t i = 0; i < questions.size(); ++i) {
+        const bool expected = is_blocked(scene, questions[i].ray, &light);
+        differing += bundled[i].blocked != expected;
+        blocked += expected;
+        ++asked;
+      }
+    }
+  }
+  CHECK(differing == 0);
+  CHECK(blocked > asked / 5);
+  CHECK(blocked < asked - asked / 5);
+}
+
 TEST_CASE("BVH: a ray that starts in the plane of a floor does not meet it") {
   Random random(78);
   const Scene scene = random_scene(kPlacements[0], random);
