@@ -13,7 +13,7 @@ namespace sidelight::raytrace {
 
 class Clearings {
  public:
-  // A triangle is looked at when it is asked about for this many times: it takes as long as a few searches.
+  // A triangle or ball is looked at when it is asked about for this many times: it takes as long as a few searches.
   static constexpr int kPatience = 8;
 
   // Of scenes that have secondary rays; else nothing is ever clear.

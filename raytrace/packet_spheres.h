@@ -3,6 +3,8 @@
 // packet_kernel.h.
 #pragma once
 
+#include <span>
+
 #include "raytrace/packet_setup.h"
 
 namespace sidelight::raytrace {
