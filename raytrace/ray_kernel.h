@@ -110,7 +110,8 @@ template <class F, class D, class Filter, int kRows, class Ask>
     std::uint32_t asking = 0, dropped = 0;
     for (; by != 0; by &= by - 1) {
       const auto r = static_cast<std::size_t>(std::countr_zero(by));
-      const LeafVerdict verdict = verdicts[r] = filters[r](leaf, count, rays.limit[r]);
+      const LeafVerdict verdict = filters[r](leaf, count, rays.limit[r]);
+      verdicts[r] = verdict;
       asking |= std::uint32_t{verdict.may != 0} << r;
       dropped += count - static_cast<std::uint32_t>(std::popcount(verdict.may));
     }
