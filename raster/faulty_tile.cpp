@@ -46,7 +46,7 @@ bool FaultyTile::wins(const Hit& hit, const Hit& nearest) const {
   return a < b || (a == b && hit.primitive < nearest.primitive);
 }
 
-void FaultyTile::draw(const Scene& scene, std::uint32_t primitive, SignCounts& counts) {
+void FaultyTile::draw(const Scene& scene, std::uint32_t primitive, VisibilityCounts& counts) {
   const SampleBox box = intersection(box_of_primitive(scene, camera_, primitive), box_);
   const Hit start{stored_.nearest(), kNone};
   for (int Y = box.y0; Y < box.y1; ++Y)

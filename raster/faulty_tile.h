@@ -31,7 +31,7 @@ class FaultyTile {
  public:
   FaultyTile(const Camera& camera, const Rect& pixels, const Faults& faults);
 
-  void draw(const Scene& scene, std::uint32_t primitive, SignCounts& counts);
+  void draw(const Scene& scene, std::uint32_t primitive, VisibilityCounts& counts);
 
   const Hit& at(int X, int Y) const { return samples_[index(X, Y)].nearest; }
   std::uint32_t tests(int X, int Y) const { return samples_[index(X, Y)].tests; }

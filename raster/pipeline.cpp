@@ -50,7 +50,7 @@ struct Job {
 
 // What each thread counts as it goes, in lines of the cache that no other writes to.
 struct alignas(64) ThreadCounts {
-  SignCounts signs;
+  VisibilityCounts visibility;
 };
 struct alignas(64) ThreadTimes {
   double draw_ms = 0, shade_ms = 0;
@@ -67,11 +67,11 @@ void for_each_tile(const Job& job, Frame& frame, const ShadeTile& shade_tile) {
   parallel_for(job.grid.count(), job.threads, [&](int tile, int thread) {
     if (options.cancel && *options.cancel) throw Interrupted();
     TileResolve& resolve = resolves[static_cast<std::size_t>(thread)];
-    shade_tile(tile, thread, resolve, counts[static_cast<std::size_t>(thread)].signs);
+    shade_tile(tile, thread, resolve, counts[static_cast<std::size_t>(thread)].visibility);
     if (options.progress) options.progress(static_cast<double>(++done) / job.grid.count());
   });
   for (const ThreadCounts& of_thread : counts)
-    frame.stats.add_counts({.rays = {}, .signs = of_thread.signs, .stages = {}});
+    frame.stats.add_counts({.rays = {}, .visibility = of_thread.visibility, .stages = {}});
 }
 
 void render_fast(const Job& job, Frame& frame) {
@@ -80,7 +80,7 @@ void render_fast(const Job& job, Frame& frame) {
   const auto threads = static_cast<std::size_t>(job.threads);
   std::vector<VisibleTile> tiles(threads);
   std::vector<ThreadTimes> times(threads);
-  for_each_tile(job, frame, [&](int tile, int thread, TileResolve& resolve, SignCounts& counts) {
+  for_each_tile(job, frame, [&](int tile, int thread, TileResolve& resolve, VisibilityCounts& counts) {
     const Rect pixels = job.grid.tile(tile);
     VisibleTile& visible = tiles[static_cast<std::size_t>(thread)];
     ThreadTimes& spent = times[static_cast<std::size_t>(thread)];
@@ -99,7 +99,7 @@ void render_fast(const Job& job, Frame& frame) {
 
   std::array<StageTime, 4> stages{{{"project"}, {"set_up"}, {"draw"}, {"shade"}}};
   for (const ThreadBins& of_thread : bins.threads()) {
-    frame.stats.add_counts({.rays = {}, .signs = of_thread.counts, .stages = {}});
+    frame.stats.add_counts({.rays = {}, .visibility = of_thread.counts, .stages = {}});
     stages[0].ms += of_thread.project_ms;
     stages[1].ms += of_thread.set_up_ms;
   }
@@ -115,7 +115,7 @@ void render_readable(const Job& job, Frame& frame) {
   const Scene& scene = job.prepared.scene;
   const Faults& faults = job.options.faults;
   const Bins bins = bin_primitives(scene, job.camera, job.grid, job.threads);
-  for_each_tile(job, frame, [&](int tile, int, TileResolve& resolve, SignCounts& counts) {
+  for_each_tile(job, frame, [&](int tile, int, TileResolve& resolve, VisibilityCounts& counts) {
     const Rect pixels = job.grid.tile(tile);
     const auto draw_and_shade = [&](auto&& depth) {
       bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(scene, primitive, counts); });
@@ -150,7 +150,7 @@ RasterRecord explain(const Prepared& prepared, const Camera& camera, int X, int 
   const Scene& scene = prepared.scene;
   const int n = camera.n, x = X / n, y = Y / n;
   const Rect pixel{x, y, x + 1, y + 1};
-  SignCounts counts;
+  VisibilityCounts counts;
   FragmentsOfSample fragments{X, Y};
   DepthTile depth(camera, pixel, fragments);
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive)

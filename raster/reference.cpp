@@ -61,7 +61,7 @@ LocalLight local_light(const Scene& scene, const Material& material, const dvec3
   return sum;
 }
 
-Sample shade(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts) {
+Sample shade(const Scene& scene, const Ray& ray, const Hit& hit, VisibilityCounts& counts) {
   Sample sample;
   if (!hit.found()) {
     sample.color = sample[Layer::ambient] = scene.background;
@@ -86,7 +86,7 @@ Sample shade(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& cou
 }
 
 // One row of pixels. (Rows are cut apart only so that all cores can help.)
-void render_row(const Scene& scene, const Camera& camera, int y, Frame& frame, SignCounts& counts) {
+void render_row(const Scene& scene, const Camera& camera, int y, Frame& frame, VisibilityCounts& counts) {
   const int n = camera.n, x0 = n * frame.window.x0, x1 = n * frame.window.x1;
   const auto columns = static_cast<std::size_t>(x1 - x0);
   std::vector<Hit> z_buffer(columns * static_cast<std::size_t>(n));
@@ -121,7 +121,8 @@ Frame render_reference(const Scene& scene, const Camera& camera, const RenderOpt
   std::atomic<int> rows{0};
   parallel_for(frame.height(), options.threads, [&](int row, int thread) {
     if (options.cancel && *options.cancel) throw Interrupted();
-    render_row(scene, camera, frame.window.y0 + row, frame, stats[static_cast<std::size_t>(thread)].signs);
+    render_row(scene, camera, frame.window.y0 + row, frame,
+               stats[static_cast<std::size_t>(thread)].visibility);
     if (options.progress) options.progress(static_cast<double>(++rows) / frame.height());
   });
   for (const RenderStats& s : stats) frame.stats.add_counts(s);

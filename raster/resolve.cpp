@@ -41,7 +41,7 @@ void TileResolve::begin(const Rect& pixels) {
     for (Colors& part : parts_) part.resize(samples());
 }
 
-void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts) {
+void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, VisibilityCounts& counts) {
   begin(pixels);
   primitive_ = primitives;
   shade_samples(false, counts);
@@ -58,7 +58,7 @@ void TileResolve::shade_background(const Rect& pixels) {
   primitive_ = kept_primitive_.data();
 }
 
-void TileResolve::shade_samples(bool known_t, SignCounts& counts) {
+void TileResolve::shade_samples(bool known_t, VisibilityCounts& counts) {
   background_ = 0;
   for (Collected& of_kind : collected_) {
     of_kind.batch.has_t = known_t;
@@ -110,7 +110,7 @@ void TileResolve::prefetch_run(std::size_t run) {
 }
 
 // Stretches of background, and of primitives of one kind.
-void TileResolve::shade_row(int row, bool known_t, SignCounts& counts) {
+void TileResolve::shade_row(int row, bool known_t, VisibilityCounts& counts) {
   constexpr int kBackground = -1;
   const auto kind_of = [&](std::uint32_t primitive) {
     return primitive == kNone ? kBackground : static_cast<int>(find_(primitive).kind);
@@ -159,7 +159,7 @@ void TileResolve::set_background(std::size_t first, std::size_t count) {
   set(parts_[2], glm::vec3(0));
 }
 
-void TileResolve::flush(Collected& collected, SignCounts& counts) {
+void TileResolve::flush(Collected& collected, VisibilityCounts& counts) {
   surfaces_at(isa_, prepared_.scene, camera_, prepared_.tables, collected.batch, shading_, counts);
   sidelight::shade(isa_, prepared_.tables, shading_, want_parts_);
   for (const Run& run : collected.runs) keep(collected.batch, run);

@@ -21,12 +21,12 @@ class TileResolve {
 
   // The samples of these pixels, of which the z-buffer keeps these primitives (row by row on the lattice; kNone:
   // background). They must stay until the tile is written.
-  void shade(const Rect& pixels, const std::uint32_t* primitives, SignCounts& counts);
+  void shade(const Rect& pixels, const std::uint32_t* primitives, VisibilityCounts& counts);
   // The same of pixels that show nothing.
   void shade_background(const Rect& pixels);
   // The same of what a tile of hits holds: a DepthTile, or one with faults, whose depths need not be those of visibility.h.
   template <class Tile>
-  void shade_hits(const Rect& pixels, const Tile& tile, SignCounts& counts) {
+  void shade_hits(const Rect& pixels, const Tile& tile, VisibilityCounts& counts) {
     begin(pixels);
     kept_primitive_.resize(samples());
     known_t_.resize(samples());
@@ -70,12 +70,12 @@ class TileResolve {
            static_cast<std::size_t>(column);
   }
   void begin(const Rect& pixels);
-  void shade_samples(bool known_t, SignCounts& counts);
+  void shade_samples(bool known_t, VisibilityCounts& counts);
   void find_runs();
   void prefetch_run(std::size_t run);
-  void shade_row(int row, bool known_t, SignCounts& counts);
+  void shade_row(int row, bool known_t, VisibilityCounts& counts);
   void set_background(std::size_t first, std::size_t count);
-  void flush(Collected& collected, SignCounts& counts);
+  void flush(Collected& collected, VisibilityCounts& counts);
   void keep(const SurfaceBatch& batch, const Run& run);
 
   const Prepared& prepared_;

@@ -44,7 +44,7 @@ struct ThreadBins {
   std::vector<TileBin> tiles;
   std::vector<LargeSurface> large;
   std::vector<BoxedSphere> spheres;
-  SignCounts counts;
+  VisibilityCounts counts;
   double project_ms = 0, set_up_ms = 0;  // what the thread spent on it
 
   // Empties them, for so many tiles.

@@ -23,7 +23,7 @@ void DepthTile<Recorder>::add_tests(const SampleBox& box) {
 }
 
 template <class Recorder>
-void DepthTile<Recorder>::draw(const Scene& scene, std::uint32_t primitive, SignCounts& counts) {
+void DepthTile<Recorder>::draw(const Scene& scene, std::uint32_t primitive, VisibilityCounts& counts) {
   const SampleBox box = intersection(box_of_primitive(scene, camera_, primitive), samples_);
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   if (ref.kind == ObjectKind::mesh) return draw_triangle(scene, primitive, scene.triangles[ref.index], box, counts);
@@ -39,7 +39,7 @@ void DepthTile<Recorder>::draw(const Scene& scene, std::uint32_t primitive, Sign
 
 template <class Recorder>
 void DepthTile<Recorder>::draw_triangle(const Scene& scene, std::uint32_t primitive, const Triangle& triangle,
-                                        const SampleBox& box, SignCounts& counts) {
+                                        const SampleBox& box, VisibilityCounts& counts) {
   const glm::dvec3& v0 = scene.positions[triangle.vertex[0]];
   const glm::dvec3& v1 = scene.positions[triangle.vertex[1]];
   const glm::dvec3& v2 = scene.positions[triangle.vertex[2]];

@@ -33,7 +33,7 @@ class DepthTile {
   DepthTile(const Camera& camera, const Rect& pixels, Recorder& recorder, bool count_tests = false);
 
   // Keeps the primitive wherever it is nearer than what the samples hold.
-  void draw(const Scene& scene, std::uint32_t primitive, SignCounts& counts);
+  void draw(const Scene& scene, std::uint32_t primitive, VisibilityCounts& counts);
 
   // The nearest hit at lattice sample (X, Y) of the tile; not found() on background.
   const Hit& at(int X, int Y) const { return nearest_[index(X, Y)]; }
@@ -48,7 +48,7 @@ class DepthTile {
     return (columns_[static_cast<std::size_t>(X - samples_.x0)] + rows_[static_cast<std::size_t>(Y - samples_.y0)]) +
            axis_;
   }
-  void keep(int X, int Y, const Hit& hit, SignCounts& counts) {
+  void keep(int X, int Y, const Hit& hit, VisibilityCounts& counts) {
     ++counts.fragments;
     Hit& nearest = nearest_[index(X, Y)];
     const bool kept = before(hit, nearest);
@@ -56,8 +56,8 @@ class DepthTile {
     recorder_.fragment(X, Y, hit, kept);
   }
   void add_tests(const SampleBox& box);
-  void draw_triangle(const Scene& scene, std::uint32_t primitive, const Triangle& triangle, const SampleBox& box,
-                     SignCounts& counts);
+  void draw_triangle(const Scene& scene, std::uint32_t primitive, const Triangle& triangle,
+                     const SampleBox& box, VisibilityCounts& counts);
 
   const Camera& camera_;
   SampleBox samples_;

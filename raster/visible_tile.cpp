@@ -11,7 +11,7 @@ namespace sidelight::raster {
 namespace {
 
 // intersect(), whose test is counted where the primitive is set up.
-Hit hit_at(const TileView& tile, std::uint32_t primitive, int X, int Y, SignCounts& counts) {
+Hit hit_at(const TileView& tile, std::uint32_t primitive, int X, int Y, VisibilityCounts& counts) {
   const Hit hit =
       intersect(tile.scene, primitive, {tile.camera.eye, tile.camera.direction(X, Y)}, kRayStart, counts);
   --counts.tests;
@@ -24,7 +24,7 @@ void keep_exactly(const TileView& tile, int X, int Y, const Hit& hit, float w) {
   const float held = tile.w[i];
   if (w * kSurely < held) return;
   if (tile.primitive[i] != kNone && !(w > held * kSurely)) {
-    SignCounts not_counted;  // it was when it was drawn
+    VisibilityCounts not_counted;  // it was when it was drawn
     if (!before(hit, hit_at(tile, tile.primitive[i], X, Y, not_counted))) return;
   }
   tile.w[i] = w;
@@ -42,13 +42,13 @@ void draw_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, i
 }
 
 void order_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, float w) {
-  SignCounts not_counted;  // the signs are, and so is the fragment
+  VisibilityCounts not_counted;  // the signs are, and so is the fragment
   const Hit hit = hit_at(tile, primitive, X, Y, not_counted);
   keep_exactly(tile, X, Y, hit, w > 0 ? w : static_cast<float>(1 / hit.t));
 }
 
 TileView VisibleTile::clear(const Scene& scene, const Camera& camera, const SampleBox& samples,
-                            SignCounts& counts) {
+                            VisibilityCounts& counts) {
   constexpr int kColumns = TileView::kBlockColumns, kRows = TileView::kBlockRows;
   const int columns = samples.x1 - samples.x0, rows = samples.y1 - samples.y0;
   const int block_columns = (columns + kColumns - 1) / kColumns, block_rows = (rows + kRows - 1) / kRows;

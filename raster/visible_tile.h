@@ -45,7 +45,7 @@ struct TileView {
 
   const Scene& scene;
   const Camera& camera;
-  SignCounts& counts;
+  VisibilityCounts& counts;
   SampleBox box;
   int block_columns = 0;
   float* w = nullptr;                  // 0 on background, infinite beyond the tile
@@ -70,7 +70,8 @@ void order_exactly(const TileView& tile, std::uint32_t primitive, int X, int Y, 
 class VisibleTile {
  public:
   // Sets the tile to background. The vectors keep their memory from tile to tile.
-  TileView clear(const Scene& scene, const Camera& camera, const SampleBox& samples, SignCounts& counts);
+  TileView clear(const Scene& scene, const Camera& camera, const SampleBox& samples,
+                 VisibilityCounts& counts);
 
   // After all is drawn: the primitive of each sample, row by row.
   const std::uint32_t* primitives(const TileView& tile);

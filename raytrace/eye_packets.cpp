@@ -43,7 +43,7 @@ EyePackets::EyePackets(const Prepared& prepared, const Camera& camera, Isa isa)
 }
 
 void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& hits,
-                       std::vector<std::uint8_t>& alone, SignCounts& counts) {
+                       std::vector<std::uint8_t>& alone, VisibilityCounts& counts) {
   hits.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   alone.resize(hits.size());
   std::size_t first = 0;
@@ -106,7 +106,7 @@ void EyePackets::place(int columns, int rows) {
 }
 
 // As nearest(): before what is kept, by depth and number.
-void EyePackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) {
+void EyePackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, VisibilityCounts& counts) {
   const EyePackets& self = *static_cast<const EyePackets*>(packet.context);
   const Scene& scene = self.prepared_.scene;
   const Ray exact{packet.origin, self.camera_.direction(self.X0_ + self.sample_[ray].column,

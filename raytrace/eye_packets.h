@@ -18,7 +18,7 @@ class EyePackets {
   // its depth left out; and whether nothing else stands near to where the ray meets it (place.h, stands_near()), for
   // certain, as long as that is within 16 reach().
   void trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& hits, std::vector<std::uint8_t>& alone,
-             SignCounts& counts);
+             VisibilityCounts& counts);
   // The order of the packets' rays, neighbours together, of that many samples: their numbers, counted row by row.
   // So many of a row follow each other where `columns` is a multiple of them.
   static constexpr int kRun = 4;
@@ -33,7 +33,7 @@ class EyePackets {
 
   void load(int X0, int Y0, int columns, int rows);
   void place(int columns, int rows);
-  static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
+  static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, VisibilityCounts& counts);
 
   const Prepared& prepared_;
   const Camera& camera_;

@@ -57,18 +57,18 @@ struct ShadowQuestion {
 struct Kernels {
   // Replaces `best` by what is nearer, of that which comes after `after` and is not `except`.
   void (*nearest)(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t except, Hit& best,
-                  SignCounts& counts);
+                  VisibilityCounts& counts);
   // The same for many rays, finite or not: neighbours should have much the same way.
-  void (*nearest_of)(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts);
+  void (*nearest_of)(const Prepared& prepared, std::span<RayQuestion> questions, VisibilityCounts& counts);
   // blocker() of prepared.h.
   Hit (*blocker)(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
-                 SignCounts& counts);
+                 VisibilityCounts& counts);
   // Whether it finds something, for many rays to one light: likewise.
   void (*blocked_of)(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3* light,
-                     SignCounts& counts);
+                     VisibilityCounts& counts);
   // Visits all primitives that may be met at a depth from `from` to `limit`.
-  void (*candidates)(const Prepared& prepared, const Ray& ray, double from, double limit, SignCounts& counts,
-                     const PrimitiveVisitor& visitor);
+  void (*candidates)(const Prepared& prepared, const Ray& ray, double from, double limit,
+                     VisibilityCounts& counts, const PrimitiveVisitor& visitor);
   std::uint64_t (*visit_leaves)(const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
   void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
   void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);

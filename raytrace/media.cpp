@@ -66,7 +66,7 @@ Media media_at(const Prepared& prepared, const glm::dvec3& eye) {
 }
 
 Media media_behind(const Prepared& prepared, const Ray& ray, const Hit& hit, const Surface& surface,
-                   const Media& media, SignCounts& counts) {
+                   const Media& media, VisibilityCounts& counts) {
   Media behind = media;
   if (prepared.solids.empty() || !prepared.scene.objects[surface.object].solid) return behind;
   const Scene& scene = prepared.scene;

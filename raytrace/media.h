@@ -50,7 +50,7 @@ Media media_at(const Prepared& prepared, const glm::dvec3& eye);
 // touches water passes light from one to the other, with no film of air in between. Of the surface object, entering and
 // together are read.
 Media media_behind(const Prepared& prepared, const Ray& ray, const Hit& hit, const Surface& surface,
-                   const Media& media, SignCounts& counts);
+                   const Media& media, VisibilityCounts& counts);
 // The same of a lone hit (lone_hit.h): there is nothing to search for.
 Media media_behind_lone(const Prepared& prepared, std::uint32_t object, bool entering, const Media& media);
 

@@ -43,7 +43,7 @@ Groups some_of(Groups groups, const Ask& ask) {
 
 template <class F>
 void ask_lanes(RayPacket& p, std::size_t first, std::uint32_t bits, std::uint32_t primitive,
-               SignCounts& counts) {
+               VisibilityCounts& counts) {
   for (; bits != 0; bits &= bits - 1) {
     const std::size_t ray = first + static_cast<std::size_t>(std::countr_zero(bits));
     p.asked[ray] = 1;
@@ -63,7 +63,7 @@ std::uint32_t own_bits(const RayPacket& p, std::size_t first, std::uint32_t prim
 // changed.
 template <class F>
 bool keep_nearer(RayPacket& p, std::size_t first, std::uint32_t primitive, const Mask<F>& met,
-                 const Mask<F>& may, const F& w, const F& w_error, SignCounts& counts) {
+                 const Mask<F>& may, const F& w, const F& w_error, VisibilityCounts& counts) {
   using I = Ints<F>;
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const F held = load<F>(&p.w[first]);

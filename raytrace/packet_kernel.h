@@ -10,7 +10,7 @@ namespace sidelight::raytrace {
 
 // A plane is a triangle without edges.
 template <class F>
-void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive, SignCounts& counts) {
+void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive, VisibilityCounts& counts) {
   if (casts_none(prepared, p, primitive)) return;
   const Plane& plane = prepared.scene.planes[primitive_ref(prepared.scene, primitive).index];
   const Vec3<double> n{plane.normal.x, plane.normal.y, plane.normal.z};
@@ -53,7 +53,7 @@ void find_squares(RayPacket& p) {
 }
 
 template <class F, class B, class D>
-void meet_all(const Prepared& prepared, RayPacket& p, SignCounts& counts) {
+void meet_all(const Prepared& prepared, RayPacket& p, VisibilityCounts& counts) {
   if (p.groups == 0) return;
   const PacketAxes axes = packet_axes(p);
   for (const std::uint32_t plane : prepared.planes) test_plane<F>(prepared, p, plane, counts);

@@ -102,7 +102,7 @@ std::size_t add_spheres_met(const RayPacket& p, const SphereSetup& s, std::size_
 
 template <class F>
 bool test_sphere(RayPacket& p, const SphereSetup& s, std::size_t i, std::size_t ray, std::uint32_t primitive,
-                 SignCounts& counts) {
+                 VisibilityCounts& counts) {
   const F u = load<F>(&p.u[ray]), v = load<F>(&p.v[ray]);
   const auto at = [&](float x, float y, float c) { return mul_add(F(x), u, mul_add(F(y), v, F(c))); };
   F square(0);
@@ -124,7 +124,7 @@ bool test_sphere(RayPacket& p, const SphereSetup& s, std::size_t i, std::size_t 
 
 template <class F, class B, class D>
 void test_leaves(const Prepared& prepared, const PacketAxes&, const SphereLeaves& leaves,
-                 std::span<const PacketEntry> one, RayPacket& p, SignCounts& counts) {
+                 std::span<const PacketEntry> one, RayPacket& p, VisibilityCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
   auto [depth, first, count, groups] = one.front();
   const std::uint32_t* primitives = &leaves.bvh.items[first];

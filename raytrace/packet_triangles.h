@@ -50,7 +50,7 @@ using LeafPrimitives = std::array<const std::uint32_t*, kLeavesTogether>;
 // just been asked for.
 template <class F>
 void test_set_up(RayPacket& p, const LeafSetup& s, Groups groups, const LeafPrimitives& primitives,
-                 SignCounts& counts) {
+                 VisibilityCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
   Pairs near, met;
   std::size_t near_size = 0, met_size = 0;
@@ -82,7 +82,7 @@ void test_set_up(RayPacket& p, const LeafSetup& s, Groups groups, const LeafPrim
 // that is guessed wrong, half as often.
 template <class F, class B, class D>
 void test_leaves(const Prepared& prepared, const PacketAxes& axes, const TriangleLeaves& leaves,
-                 std::span<const PacketEntry> entries, RayPacket& p, SignCounts& counts) {
+                 std::span<const PacketEntry> entries, RayPacket& p, VisibilityCounts& counts) {
   LeafSetup setup;
   LeafPrimitives primitives{};
   Groups groups = 0;

@@ -177,7 +177,7 @@ void push_children(const Tree& leaves, const BvhNode& node, const PacketBounds& 
 // Near things first. A leaf waits until some more have been found, while its numbers are on their way.
 template <class F, class B, class D, class Tree>
 void walk_packet(const Prepared& prepared, const PacketAxes& axes, const Tree& leaves, RayPacket& p,
-                 SignCounts& counts) {
+                 VisibilityCounts& counts) {
   constexpr std::size_t kAhead = 8;
   if (leaves.bvh.nodes.empty()) return;
   const PacketBounds bounds = packet_bounds(p, axes, leaves.bvh);

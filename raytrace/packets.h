@@ -53,7 +53,8 @@ struct RayPacket {
   alignas(64) PerRay<float> square;  // where there are spheres: (d / length)²
 
   // Decides about a ray and a primitive, and changes w and primitive accordingly.
-  void (*ask)(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) = nullptr;
+  void (*ask)(RayPacket& packet, std::size_t ray, std::uint32_t primitive,
+              VisibilityCounts& counts) = nullptr;
   void* context = nullptr;
 };
 
@@ -62,10 +63,10 @@ struct RayPacket {
 void start(RayPacket& packet);
 
 // Meets everything in the scene that casts shadows (any_hit), or simply everything, as far as the budget goes.
-void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, SignCounts& counts);
+void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts);
 // One for each instruction set.
-void trace_packet_scalar(const Prepared& prepared, RayPacket& packet, SignCounts& counts);
-void trace_packet_avx2(const Prepared& prepared, RayPacket& packet, SignCounts& counts);
-void trace_packet_avx512(const Prepared& prepared, RayPacket& packet, SignCounts& counts);
+void trace_packet_scalar(const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts);
+void trace_packet_avx2(const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts);
+void trace_packet_avx512(const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts);
 
 }  // namespace sidelight::raytrace

@@ -5,7 +5,8 @@
 
 namespace sidelight::raytrace {
 
-[[gnu::flatten]] void trace_packet_avx2(const Prepared& prepared, RayPacket& packet, SignCounts& counts) {
+[[gnu::flatten]] void trace_packet_avx2(const Prepared& prepared, RayPacket& packet,
+                                        VisibilityCounts& counts) {
   meet_all<stdx::native_simd<float>, stdx::native_simd<float>, stdx::native_simd<double>>(prepared, packet,
                                                                                           counts);
 }

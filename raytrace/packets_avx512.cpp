@@ -5,7 +5,8 @@
 
 namespace sidelight::raytrace {
 
-[[gnu::flatten]] void trace_packet_avx512(const Prepared& prepared, RayPacket& packet, SignCounts& counts) {
+[[gnu::flatten]] void trace_packet_avx512(const Prepared& prepared, RayPacket& packet,
+                                          VisibilityCounts& counts) {
   meet_all<stdx::native_simd<float>, stdx::simd<float, stdx::simd_abi::deduce_t<float, 8>>,
            stdx::native_simd<double>>(prepared, packet, counts);
 }

@@ -5,7 +5,7 @@
 
 namespace sidelight::raytrace {
 
-void trace_packet_scalar(const Prepared& prepared, RayPacket& packet, SignCounts& counts) {
+void trace_packet_scalar(const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts) {
   meet_all<float, float, double>(prepared, packet, counts);
 }
 

@@ -58,36 +58,37 @@ bool casts_shadow(const Scene& scene, std::uint32_t primitive);
 enum class Precision { exact, in_float };
 
 // The nearest hit after `after`; not found() if there is none. The same as nearest_of_all, found faster.
-Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
+Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, VisibilityCounts& counts,
             Precision precision = Precision::exact, Isa isa = best_isa());
 
 // The same where of one primitive, `known`, it is known that its hit, if it has one, is `own`: it is not asked.
 Hit nearest_beside(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t known,
-                   const Hit& own, SignCounts& counts, Isa isa);
+                   const Hit& own, VisibilityCounts& counts, Isa isa);
 
 // The same for many rays, neighbours of which should have much the same way: `best` of each question, its own hit at
 // first, becomes the nearest.
 struct RayQuestion;
-void nearest_beside(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts, Isa isa);
+void nearest_beside(const Prepared& prepared, std::span<RayQuestion> questions, VisibilityCounts& counts,
+                    Isa isa);
 
 // Something that casts shadows and stands between the ray's origin and the light; not found() if nothing does. For a
 // point light the ray's direction is light - origin and the light is at t = 1; for a directional one (light ==
 // nullptr) it is infinitely far. Of several blockers any one is returned, the same one each time.
 // Only what is met after `start` counts.
-Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
+Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, VisibilityCounts& counts,
             const Hit& start = kRayStart, Precision precision = Precision::exact, Isa isa = best_isa());
 
 // Whether there is a blocker of each of many rays to one light, neighbours of which should have much the same way.
 struct ShadowQuestion;
 void find_blocked(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3* light,
-                  SignCounts& counts, Isa isa);
+                  VisibilityCounts& counts, Isa isa);
 
 // Where rays start that leave `place`, at which `ray` met `hit`: leaving_point of all that stands near.
 glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,
-                         SignCounts& counts, Isa isa = best_isa());
+                         VisibilityCounts& counts, Isa isa = best_isa());
 
 // All hits h with h.t in [from.t, last_t] that do not come before `from`, in order.
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,
-                              SignCounts& counts, Isa isa = best_isa());
+                              VisibilityCounts& counts, Isa isa = best_isa());
 
 }  // namespace sidelight::raytrace

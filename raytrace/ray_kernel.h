@@ -36,7 +36,7 @@ struct Candidate {
     return all_at(0, origin.x) || all_at(1, origin.y) || all_at(2, origin.z);
   }
 
-  Hit hit(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts) const {
+  Hit hit(const Scene& scene, const Ray& ray, const Hit& after, VisibilityCounts& counts) const {
     if constexpr (kRows == TriangleLeaves::kRowCount) {
       const glm::dvec3 v0 = corner(0), v1 = corner(1), v2 = corner(2);
       const bool missed = !met && (starts_in_flat(ray.origin) || plane_behind(v0, v1, v2, ray));
@@ -54,8 +54,8 @@ struct Candidate {
 // ask(candidate, limit), which returns the new limit.
 template <class F, class Filter, int kRows, class Ask>
 [[gnu::always_inline]] inline double ask_leaves(const Leaves<kRows>& leaves, const Filter& filter,
-                                                const Ray& ray, double from, double limit, SignCounts& counts,
-                                                const Ask& ask) {
+                                                const Ray& ray, double from, double limit,
+                                                VisibilityCounts& counts, const Ask& ask) {
   counts.nodes +=
       walk<F>(leaves.bvh, ray, from, limit, [&](std::uint32_t first, std::uint32_t count, double current) {
         const double* leaf = leaves.leaf(first);
@@ -76,7 +76,7 @@ template <class F, class Filter, int kRows, class Ask>
 // Of triangles and spheres, until a limit is negative.
 template <class F, class D, class Ask>
 [[gnu::always_inline]] inline void ask_all(const Prepared& prepared, const Ray& ray, double from,
-                                           double limit, SignCounts& counts, const Ask& ask) {
+                                           double limit, VisibilityCounts& counts, const Ask& ask) {
   const TriangleLeaves& triangles = prepared.triangles;
   const SphereLeaves& spheres = prepared.spheres;
   if (!triangles.bvh.nodes.empty())
@@ -87,7 +87,7 @@ template <class F, class D, class Ask>
 
 template <class F, class D>
 [[gnu::flatten]] void nearest_in_lanes(const Prepared& prepared, const Ray& ray, const Hit& after,
-                                       std::uint32_t except, Hit& best, SignCounts& counts) {
+                                       std::uint32_t except, Hit& best, VisibilityCounts& counts) {
   ask_all<F, D>(prepared, ray, after.t, best.t, counts, [&](const auto& candidate, double) {
     if (candidate.primitive == except) return best.t;
     const Hit hit = candidate.hit(prepared.scene, ray, after, counts);
@@ -100,7 +100,7 @@ template <class F, class D>
 // ask(r, candidate), which returns the new limit.
 template <class F, class D, class Filter, int kRows, class Ask>
 [[gnu::always_inline]] inline void ask_leaves_of(const Leaves<kRows>& leaves, const Filter* filters,
-                                                 BundleRays& rays, SignCounts& counts, const Ask& ask) {
+                                                 BundleRays& rays, VisibilityCounts& counts, const Ask& ask) {
   Bundle bundle;
   set_up<D>(leaves.bvh, rays, bundle);
   const auto visit = [&](std::uint32_t first, std::uint32_t count, std::uint32_t by) {
@@ -133,7 +133,7 @@ template <class F, class D, class Filter, int kRows, class Ask>
 // Of triangles and spheres. ray_of(r): the ray that rays[r] is.
 template <class F, class D, class RayOf, class Ask>
 [[gnu::always_inline]] inline void ask_all_of(const Prepared& prepared, BundleRays& rays, const RayOf& ray_of,
-                                              SignCounts& counts, const Ask& ask) {
+                                              VisibilityCounts& counts, const Ask& ask) {
   const TriangleLeaves& triangles = prepared.triangles;
   const SphereLeaves& spheres = prepared.spheres;
   rays.fill_up();
@@ -151,7 +151,7 @@ template <class F, class D, class RayOf, class Ask>
 
 template <class F, class D>
 [[gnu::flatten]] void nearest_of_in_lanes(const Prepared& prepared, std::span<RayQuestion> questions,
-                                          SignCounts& counts) {
+                                          VisibilityCounts& counts) {
   for (std::size_t at = 0; at < questions.size(); at += Bundle::kCapacity) {
     const auto some = questions.subspan(at, std::min(Bundle::kCapacity, questions.size() - at));
     BundleRays rays;
@@ -176,7 +176,7 @@ template <class F, class D>
 template <class Candidate>
 [[gnu::always_inline]] inline Hit blocking_hit(const Prepared& prepared, const Candidate& candidate,
                                                const Ray& ray, const glm::dvec3* light, const Hit& start,
-                                               SignCounts& counts) {
+                                               VisibilityCounts& counts) {
   if (!prepared.all_cast_shadows && !casts_shadow(prepared.scene, candidate.primitive)) return {};
   const Hit hit = candidate.hit(prepared.scene, ray, start, counts);
   return hit.found() && (!light || before_light(prepared.scene, hit, ray, *light, counts)) ? hit : Hit{};
@@ -185,7 +185,7 @@ template <class Candidate>
 // Whether there is one. Of a sphere that is surely met before the light no root is needed.
 template <int kRows>
 [[gnu::always_inline]] inline bool blocks(const Prepared& prepared, const Candidate<kRows>& candidate,
-                                          const Ray& ray, const glm::dvec3* light, SignCounts& counts) {
+                                          const Ray& ray, const glm::dvec3* light, VisibilityCounts& counts) {
   if (kRows == SphereLeaves::kRowCount && candidate.met && prepared.all_cast_shadows) {
     ++counts.tests;
     return true;
@@ -195,7 +195,7 @@ template <int kRows>
 
 template <class F, class D>
 [[gnu::flatten]] Hit blocker_in_lanes(const Prepared& prepared, const Ray& ray, const glm::dvec3* light,
-                                      const Hit& start, SignCounts& counts) {
+                                      const Hit& start, VisibilityCounts& counts) {
   Hit found;
   const double limit = depth_of(light);
   ask_all<F, D>(prepared, ray, start.t, limit, counts, [&](const auto& candidate, double current) {
@@ -207,7 +207,7 @@ template <class F, class D>
 
 template <class F, class D>
 [[gnu::flatten]] void blocked_of_in_lanes(const Prepared& prepared, std::span<ShadowQuestion> questions,
-                                          const glm::dvec3* light, SignCounts& counts) {
+                                          const glm::dvec3* light, VisibilityCounts& counts) {
   const double limit = depth_of(light);
   for (std::size_t at = 0; at < questions.size(); at += Bundle::kCapacity) {
     const auto some = questions.subspan(at, std::min(Bundle::kCapacity, questions.size() - at));
@@ -225,7 +225,7 @@ template <class F, class D>
 
 template <class F, class D>
 [[gnu::flatten]] void candidates_in_lanes(const Prepared& prepared, const Ray& ray, double from, double limit,
-                                          SignCounts& counts, const PrimitiveVisitor& visitor) {
+                                          VisibilityCounts& counts, const PrimitiveVisitor& visitor) {
   ask_all<F, D>(prepared, ray, from, limit, counts, [&](const auto& candidate, double current) {
     visitor.visit(visitor.context, candidate.primitive);
     return current;

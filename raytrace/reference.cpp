@@ -71,12 +71,12 @@ Light3 Tracer::trace(const Ray& ray, Hit start, Solids inside, int depth, double
   Place place;
   for (;; start = out.hit) {
     // For each object: the nearest it is.
-    out.hit = nearest_of_all(scene_, ray, start, stats_.signs);
+    out.hit = nearest_of_all(scene_, ray, start, stats_.visibility);
     if (!out.hit.found()) {
       out.color = out.ambient = scene_.background;
       return out;
     }
-    place = locate(scene_, ray, out.hit, stats_.signs);
+    place = locate(scene_, ray, out.hit, stats_.visibility);
     // Where the medium goes on behind the surface, a secondary ray does not notice it.
     if (depth == 1 || !scene_.trace.refraction || !object_of(out.hit).solid) break;
     const Solids after = behind(ray, out.hit, place, inside);
@@ -109,8 +109,8 @@ dvec3 Tracer::normal_at(const Hit& hit, const Place& place) const {
 dvec3 Tracer::leaving_from(const Ray& ray, const Hit& hit, const Place& place) {
   std::vector<std::uint32_t> near;
   for (std::uint32_t primitive = 0; primitive < scene_.primitive_object.size(); ++primitive)
-    if (stands_near(scene_, primitive, ray, hit, place, stats_.signs)) near.push_back(primitive);
-  return leaving_point(scene_, ray, hit, place, near, stats_.signs);
+    if (stands_near(scene_, primitive, ray, hit, place, stats_.visibility)) near.push_back(primitive);
+  return leaving_point(scene_, ray, hit, place, near, stats_.visibility);
 }
 
 // c1 [ ka Ia + sum_i b_i f_i(d) I_i (kd (N.L) + ks (Rl.V)^s) ], b_i = 0 where something stands before light i
@@ -147,8 +147,9 @@ bool Tracer::sees_light(const dvec3& from, const Light& light) {
   const Ray ray = make_ray(from, light.directional ? -light.direction : light.position - from);
   for (std::uint32_t primitive = 0; primitive < scene_.primitive_object.size(); ++primitive) {
     if (!scene_.materials[primitive_material(scene_, primitive)].casts_shadow) continue;
-    const Hit hit = intersect(scene_, primitive, ray, kRayStart, stats_.signs);
-    if (hit.found() && (light.directional || before_light(scene_, hit, ray, light.position, stats_.signs)))
+    const Hit hit = intersect(scene_, primitive, ray, kRayStart, stats_.visibility);
+    if (hit.found() &&
+        (light.directional || before_light(scene_, hit, ray, light.position, stats_.visibility)))
       return false;
   }
   return true;
@@ -212,10 +213,10 @@ dvec3 Tracer::follow(const Ray& ray, const Hit& start, const Solids& inside, con
 Solids Tracer::behind(const Ray& ray, const Hit& hit, const Place& place, const Solids& inside) {
   Solids after = inside;
   for (Hit each = hit; each.found() && each.t <= place.together;
-       each = nearest_of_all(scene_, ray, each, stats_.signs)) {
+       each = nearest_of_all(scene_, ray, each, stats_.visibility)) {
     const std::uint32_t object = scene_.primitive_object[each.primitive];
     if (!scene_.objects[object].solid) continue;
-    if (locate(scene_, ray, each, stats_.signs).entering)
+    if (locate(scene_, ray, each, stats_.visibility).entering)
       after.insert(object);
     else
       after.erase(object);

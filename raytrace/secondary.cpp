@@ -14,7 +14,7 @@ Shares shares_of(const Scene& scene, const Material& material) {
 }
 
 Departures departures(const Prepared& prepared, const Path& path, const Hit& hit, const Surface& surface,
-                      const glm::dvec3& from, SignCounts& counts) {
+                      const glm::dvec3& from, VisibilityCounts& counts) {
   const Scene& scene = prepared.scene;
   const Material& material = scene.materials[surface.material];
   const glm::dvec3 c2 = reflect_of(scene, material), c3 = refract_of(scene, material);

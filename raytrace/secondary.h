@@ -48,7 +48,7 @@ Shares shares_of(const Scene& scene, const Material& material);
 // (leaving_point). Of the surface object, material, normal, facing, entering and together are read. Depth and weight are
 // still those of `path`.
 Departures departures(const Prepared& prepared, const Path& path, const Hit& hit, const Surface& surface,
-                      const glm::dvec3& from, SignCounts& counts);
+                      const glm::dvec3& from, VisibilityCounts& counts);
 
 // eta of Snell's law.
 inline double relative_ior(const Scene& scene, const Media& before, const Media& behind) {

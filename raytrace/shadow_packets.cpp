@@ -68,7 +68,7 @@ ShadowPackets::ShadowPackets(const Prepared& prepared, Isa isa) : prepared_(prep
 }
 
 void ShadowPackets::trace(const Light& light, const ShadowQueries& queries, std::vector<std::uint8_t>& dark,
-                          SignCounts& counts) {
+                          VisibilityCounts& counts) {
   light_ = &light;
   queries_ = &queries;
   dark.assign(queries.size(), 0);
@@ -155,7 +155,7 @@ void ShadowPackets::sort_places() {
 }
 
 // Packet by packet, as the groups come: those that lie apart go down the tree apart.
-void ShadowPackets::trace_face(std::vector<std::uint8_t>& dark, SignCounts& counts) {
+void ShadowPackets::trace_face(std::vector<std::uint8_t>& dark, VisibilityCounts& counts) {
   constexpr std::size_t kGroups = RayPacket::kGroups;
   if (places_.size() == 0) return;
   if (find_groups() > kApart * whole_.area()) {
@@ -171,7 +171,7 @@ void ShadowPackets::trace_face(std::vector<std::uint8_t>& dark, SignCounts& coun
 }
 
 void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark,
-                                 SignCounts& counts) {
+                                 VisibilityCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
   Extent extent;
   for (std::size_t g = first; g < last; ++g) extent.grow(groups_[g]);
@@ -222,14 +222,15 @@ void ShadowPackets::leave(std::size_t number) {
   questions_.push_back({ray_to_light((*queries_)[number].from, *light_)});
 }
 
-void ShadowPackets::trace_left(std::vector<std::uint8_t>& dark, SignCounts& counts) {
+void ShadowPackets::trace_left(std::vector<std::uint8_t>& dark, VisibilityCounts& counts) {
   find_blocked(prepared_, questions_, light_->directional ? nullptr : &light_->position, counts, isa_);
   for (std::size_t i = 0; i < left_.size(); ++i) dark[left_[i]] = questions_[i].blocked;
   left_.clear();
   questions_.clear();
 }
 
-void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts) {
+void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive,
+                        VisibilityCounts& counts) {
   const ShadowPackets& self = *static_cast<const ShadowPackets*>(packet.context);
   // As blocker() does; what casts no shadow is not asked about.
   const Scene& scene = self.prepared_.scene;

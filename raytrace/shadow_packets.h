@@ -24,7 +24,7 @@ class ShadowPackets {
 
   // dark[k] != 0 where queries[k] asks and something blocks it.
   void trace(const Light& light, const ShadowQueries& queries, std::vector<std::uint8_t>& dark,
-             SignCounts& counts);
+             VisibilityCounts& counts);
 
  private:
   // What the rays of a group, or of more, have in common.
@@ -42,12 +42,13 @@ class ShadowPackets {
 
   Extent group_at(std::size_t first) const;
   float find_groups();
-  void trace_face(std::vector<std::uint8_t>& dark, SignCounts& counts);
+  void trace_face(std::vector<std::uint8_t>& dark, VisibilityCounts& counts);
   void sort_places();
-  void trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark, SignCounts& counts);
+  void trace_groups(std::size_t first, std::size_t last, std::vector<std::uint8_t>& dark,
+                    VisibilityCounts& counts);
   void leave(std::size_t number);
-  void trace_left(std::vector<std::uint8_t>& dark, SignCounts& counts);
-  static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, SignCounts& counts);
+  void trace_left(std::vector<std::uint8_t>& dark, VisibilityCounts& counts);
+  static void ask(RayPacket& packet, std::size_t ray, std::uint32_t primitive, VisibilityCounts& counts);
 
   const Prepared& prepared_;
   Isa isa_;

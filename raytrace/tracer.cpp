@@ -50,11 +50,11 @@ void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_
     for (int Y = n * y; Y < n * (y + 1); ++Y)
       for (int X = n * x; X < n * (x + 1); ++X) {
         ++stats.rays.primary;
-        const std::uint64_t tests_before = stats.signs.tests;
+        const std::uint64_t tests_before = stats.visibility.tests;
         const Traced<Real> traced = whitted.trace(eye_path(camera, eye_media, X, Y));
         if (!cut.empty()) cut[frame.index(x, y)] += traced.cut_weight;
         Sample sample = to_sample(traced);
-        sample.tests = stats.signs.tests - tests_before;
+        sample.tests = stats.visibility.tests - tests_before;
         pixel.add(sample);
       }
     pixel.write(x, y);

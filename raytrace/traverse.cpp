@@ -21,7 +21,7 @@ bool is_finite(const Ray& ray) {
 // For a fault on purpose, whose hits no filter knows: all primitives whose boxes may be met at a depth <= limit, and all
 // planes. visit(primitive, limit) returns the new limit, negative to stop.
 template <class Visit>
-void candidates(const Prepared& prepared, const Ray& ray, double limit, SignCounts& counts, Isa isa,
+void candidates(const Prepared& prepared, const Ray& ray, double limit, VisibilityCounts& counts, Isa isa,
                 const Visit& visit) {
   if (!is_finite(ray)) return;  // it meets nothing, but no box would turn it away
   const auto keep = [&](std::uint32_t primitive, double current) {
@@ -36,7 +36,7 @@ void candidates(const Prepared& prepared, const Ray& ray, double limit, SignCoun
 // intersect_one: intersect, or intersect_in_float.
 template <auto intersect_one>
 Hit blocking_hit(const Scene& scene, std::uint32_t primitive, const Ray& ray, const glm::dvec3* light,
-                 const Hit& start, SignCounts& counts) {
+                 const Hit& start, VisibilityCounts& counts) {
   if (!casts_shadow(scene, primitive)) return {};
   const Hit hit = intersect_one(scene, primitive, ray, start, counts);
   if (hit.found() && (!light || before_light(scene, hit, ray, *light, counts))) return hit;
@@ -44,7 +44,7 @@ Hit blocking_hit(const Scene& scene, std::uint32_t primitive, const Ray& ray, co
 }
 
 // The same questions for a fault on purpose, whose hits no filter knows.
-Hit nearest_in_float(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
+Hit nearest_in_float(const Prepared& prepared, const Ray& ray, const Hit& after, VisibilityCounts& counts,
                      Isa isa) {
   Hit best;
   candidates(prepared, ray, best.t, counts, isa, [&](std::uint32_t primitive, double) {
@@ -56,7 +56,7 @@ Hit nearest_in_float(const Prepared& prepared, const Ray& ray, const Hit& after,
 }
 
 Hit blocker_in_float(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
-                     SignCounts& counts, Isa isa) {
+                     VisibilityCounts& counts, Isa isa) {
   Hit found;
   const double limit = light ? 1 : std::numeric_limits<double>::infinity();
   candidates(prepared, ray, limit, counts, isa, [&](std::uint32_t primitive, double current) {
@@ -68,7 +68,7 @@ Hit blocker_in_float(const Prepared& prepared, const Ray& ray, const glm::dvec3*
 
 // `own`, or the hit of a plane but `known` that comes before it.
 Hit nearest_plane(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t known,
-                  const Hit& own, SignCounts& counts) {
+                  const Hit& own, VisibilityCounts& counts) {
   Hit best = own;
   for (const std::uint32_t primitive : prepared.planes) {
     if (primitive == known) continue;
@@ -110,28 +110,29 @@ bool casts_shadow(const Scene& scene, std::uint32_t primitive) {
   return scene.materials[primitive_material(scene, primitive)].casts_shadow;
 }
 
-Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, SignCounts& counts,
+Hit nearest(const Prepared& prepared, const Ray& ray, const Hit& after, VisibilityCounts& counts,
             Precision precision, Isa isa) {
   if (precision == Precision::in_float) return nearest_in_float(prepared, ray, after, counts, isa);
   return nearest_beside(prepared, ray, after, kNone, {}, counts, isa);
 }
 
 Hit nearest_beside(const Prepared& prepared, const Ray& ray, const Hit& after, std::uint32_t known,
-                   const Hit& own, SignCounts& counts, Isa isa) {
+                   const Hit& own, VisibilityCounts& counts, Isa isa) {
   if (!is_finite(ray)) return own;
   Hit best = nearest_plane(prepared, ray, after, known, own, counts);
   kernels_for(isa).nearest(prepared, ray, after, known, best, counts);
   return best;
 }
 
-void nearest_beside(const Prepared& prepared, std::span<RayQuestion> questions, SignCounts& counts, Isa isa) {
+void nearest_beside(const Prepared& prepared, std::span<RayQuestion> questions, VisibilityCounts& counts,
+                    Isa isa) {
   if (!prepared.planes.empty())
     for (auto& [ray, after, known, best] : questions)
       if (is_finite(ray)) best = nearest_plane(prepared, ray, after, known, best, counts);
   kernels_for(isa).nearest_of(prepared, questions, counts);
 }
 
-Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, SignCounts& counts,
+Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, VisibilityCounts& counts,
             const Hit& start, Precision precision, Isa isa) {
   if (precision == Precision::in_float) return blocker_in_float(prepared, ray, light, start, counts, isa);
   if (!is_finite(ray)) return {};
@@ -143,7 +144,7 @@ Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, S
 }
 
 void find_blocked(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3* light,
-                  SignCounts& counts, Isa isa) {
+                  VisibilityCounts& counts, Isa isa) {
   for (const std::uint32_t primitive : prepared.planes)
     for (auto& [ray, blocked] : questions)
       if (!blocked && is_finite(ray))
@@ -152,7 +153,7 @@ void find_blocked(const Prepared& prepared, std::span<ShadowQuestion> questions,
 }
 
 glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hit, const Place& place,
-                         SignCounts& counts, Isa isa) {
+                         VisibilityCounts& counts, Isa isa) {
   std::vector<std::uint32_t> near;  // empty, but at edges
   auto add = [&](std::uint32_t primitive) {
     if (stands_near(prepared.scene, primitive, ray, hit, place, counts)) near.push_back(primitive);
@@ -171,7 +172,7 @@ glm::dvec3 leaving_point(const Prepared& prepared, const Ray& ray, const Hit& hi
 }
 
 std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hit& from, double last_t,
-                              SignCounts& counts, Isa isa) {
+                              VisibilityCounts& counts, Isa isa) {
   std::vector<Hit> hits;
   if (!is_finite(ray)) return hits;
   auto add = [&](std::uint32_t primitive) {

@@ -162,7 +162,7 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
     take_primary(level.hits);
   } else if (eye) {
     eye_packets_.trace(camera_.n * pixels_.x0, camera_.n * pixels_.y0, static_cast<int>(columns()),
-                       camera_.n * pixels_.height(), level.hits, level.alone, stats.signs);
+                       camera_.n * pixels_.height(), level.hits, level.alone, stats.visibility);
   } else {
     level.hits.resize(size);
     level.alone.assign(size, false);
@@ -200,7 +200,7 @@ void Wave::find_own_hits(Level& level, RenderStats& stats) {
 
 void Wave::take_own_hits(Level& level, RenderStats& stats) {
   kernels_for(isa_).own_hits(balls_);
-  stats.signs.tests += balls_.size;
+  stats.visibility.tests += balls_.size;
   for (std::size_t k = 0; k < balls_.size; ++k)
     if (std::isfinite(balls_.t[k])) level.hits[balls_.ray[k]] = {balls_.t[k], level.rays[balls_.ray[k]].own};
   balls_.size = 0;
@@ -220,14 +220,14 @@ void Wave::find_first_hits(Level& level, RenderStats& stats) {
     questions_.push_back({ray.ray, start_of(ray, parent), ray.own, own});
     asking_.push_back(static_cast<std::uint32_t>(i));
   }
-  nearest_beside(prepared_, questions_, stats.signs, isa_);
+  nearest_beside(prepared_, questions_, stats.visibility, isa_);
   for (std::size_t k = 0; k < asking_.size(); ++k) level.hits[asking_[k]] = questions_[k].best;
 }
 
 // From the first hit of a secondary ray on: the first that is not just a surface inside of a medium that goes on behind
 // it.
 Hit Wave::first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats) {
-  for (;; hit = nearest(prepared_, ray.ray, hit, stats.signs, Precision::exact, isa_)) {
+  for (;; hit = nearest(prepared_, ray.ray, hit, stats.visibility, Precision::exact, isa_)) {
     alone = false;
     if (!hit.found() || prepared_.solids.empty()) return hit;
     const std::uint32_t object = scene_.primitive_object[hit.primitive];
@@ -235,10 +235,11 @@ Hit Wave::first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& 
     const Lone lone = lone_hit(prepared_, ray.ray, hit, isa_, &clearings_);
     alone = static_cast<std::uint8_t>(lone);
     const MediaSets::Number behind =
-        lone != Lone::unknown ? media_.behind_lone(object, lone == Lone::entering, ray.media)
-                              : media_.number_of(media_behind(prepared_, ray.ray, hit,
-                                                              surface_at(scene_, ray.ray, hit, stats.signs),
-                                                              media_[ray.media], stats.signs));
+        lone != Lone::unknown
+            ? media_.behind_lone(object, lone == Lone::entering, ray.media)
+            : media_.number_of(media_behind(prepared_, ray.ray, hit,
+                                            surface_at(scene_, ray.ray, hit, stats.visibility),
+                                            media_[ray.media], stats.visibility));
     if (media_[behind].current() != media_[ray.media].current()) return hit;
     ray.media = behind;
   }

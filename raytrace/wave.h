@@ -126,7 +126,7 @@ class Wave {
   void send_secondary(Level& level, Level& next, RenderStats& stats);
   void find_senders(Level& level, const HitBatch& batch, RenderStats& stats);
   void find_behind(const Level& level, const HitBatch& batch, const Ray& ray, Sender& sender,
-                   SignCounts& counts);
+                   VisibilityCounts& counts);
   bool is_total(std::size_t k) const {  // reflection at entry k of optics_
     return optics_.eta[k] != OpticsBatch::kNoRefraction && optics_.total[k] != 0;
   }

@@ -45,7 +45,7 @@ void Wave::find_queries(const Level& level) {
 void Wave::find_shadows(std::size_t light, RenderStats& stats) {
   const Light& source = scene_.lights[light];
   find_asking(light, stats);
-  shadow_packets_.trace(source, queries_, dark_, stats.signs);
+  shadow_packets_.trace(source, queries_, dark_, stats.visibility);
   for (std::size_t b = 0, first = 0; b < used_; ++b, first += ShadingBatch::kCapacity) {
     ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
     for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)

@@ -54,14 +54,14 @@ void Wave::find_senders(Level& level, const HitBatch& batch, RenderStats& stats)
       sender.entering = sender.lone == Lone::unknown ? is_entering(scene_, ray, hit, get(batch.facing, i))
                                                      : sender.lone == Lone::entering;
     if (c3 == 0 || !sender.solid) continue;
-    find_behind(level, batch, ray, sender, stats.signs);
+    find_behind(level, batch, ray, sender, stats.visibility);
     optics_.eta[k] = relative_ior(scene_, media_[media_of(level, number)], media_[sender.behind]);
   }
 }
 
 // The media behind a solid's surface.
 void Wave::find_behind(const Level& level, const HitBatch& batch, const Ray& ray, Sender& sender,
-                       SignCounts& counts) {
+                       VisibilityCounts& counts) {
   const Hit& hit = level.hits[batch.ray[sender.entry]];
   const std::uint32_t object = scene_.primitive_object[hit.primitive];
   const MediaSets::Number media = media_of(level, batch.ray[sender.entry]);

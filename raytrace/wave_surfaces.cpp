@@ -87,7 +87,7 @@ std::size_t Wave::add_seen(const Level& level, std::size_t first, const Object& 
 
 void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& stats) {
   if (surfaces.size == 0) return;
-  surfaces_at(isa_, scene_, camera_, prepared_.tables, surfaces, shading_, stats.signs);
+  surfaces_at(isa_, scene_, camera_, prepared_.tables, surfaces, shading_, stats.visibility);
   HitBatch& batch = next_batch();
   const auto size = static_cast<std::size_t>(surfaces.size);
   if (surfaces.want_t)
@@ -161,7 +161,7 @@ void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBa
     const Hit& hit = level.hits[batch.ray[i]];
     const Ray ray = ray_of(level, batch.ray[i]);
     place.together = together_depth(ray, hit, place);
-    const glm::dvec3 from = leaving_point(prepared_, ray, hit, place, stats.signs, isa_);
+    const glm::dvec3 from = leaving_point(prepared_, ray, hit, place, stats.visibility, isa_);
     batch.plain[i] = from == get(batch.from, i);
     put(batch.from, i, from);
   }

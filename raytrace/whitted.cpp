@@ -18,17 +18,17 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
   Surface surface;
   recorder_.begin(path);
   // A surface inside a medium that goes on behind it is passed without colour; what the eye itself meets is shaded.
-  for (Hit hit = nearest(prepared_, path.ray, path.start, stats_.signs, precision_, isa_);;
-       hit = nearest(prepared_, path.ray, hit, stats_.signs, precision_, isa_)) {
+  for (Hit hit = nearest(prepared_, path.ray, path.start, stats_.visibility, precision_, isa_);;
+       hit = nearest(prepared_, path.ray, hit, stats_.visibility, precision_, isa_)) {
     out.hit = hit;
     if (!hit.found()) {
       out.color = out.ambient = Rgb(scene_.background);
       recorder_.end(out.color);
       return out;
     }
-    surface = surface_at(scene_, path.ray, hit, stats_.signs);
+    surface = surface_at(scene_, path.ray, hit, stats_.visibility);
     if (path.depth == 1 || prepared_.solids.empty() || !scene_.objects[surface.object].solid) break;
-    const Media behind = media_behind(prepared_, path.ray, hit, surface, path.media, stats_.signs);
+    const Media behind = media_behind(prepared_, path.ray, hit, surface, path.media, stats_.visibility);
     if (behind.current() != path.media.current()) break;
     path.media = behind;
     recorder_.passed(hit);
@@ -38,7 +38,7 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
   const bool secondary = prepared_.needs[Need::mirrors] || prepared_.needs[Need::refraction];
   glm::dvec3 from{0};  // where rays start that leave
   if (secondary || scene_.trace.shadows)
-    from = leaving_point(prepared_, path.ray, out.hit, surface, stats_.signs, isa_);
+    from = leaving_point(prepared_, path.ray, out.hit, surface, stats_.visibility, isa_);
   add_local(surface, path.ray, from, out);
   if (secondary) add_secondary(path, surface, from, out);
   out.color = (out.color + out.mirrored) + out.refracted;
@@ -93,14 +93,14 @@ Hit Whitted<Real, Recorder>::shadow_blocker(const Surface& surface, const glm::d
   const glm::dvec3 origin = shadow_offset_ ? surface.point : from;
   const Ray ray = ray_to_light(origin, light);
   const Hit start{shadow_offset_ ? *shadow_offset_ / glm::length(ray.direction) : kRayStart.t, kNone};
-  return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.signs, start,
+  return blocker(prepared_, ray, light.directional ? nullptr : &light.position, stats_.visibility, start,
                  precision_, isa_);
 }
 
 template <class Real, class Recorder>
 void Whitted<Real, Recorder>::add_secondary(const Path& path, const Surface& surface, const glm::dvec3& from,
                                             Traced<Real>& out) {
-  Departures leaving = departures(prepared_, path, out.hit, surface, from, stats_.signs);
+  Departures leaving = departures(prepared_, path, out.hit, surface, from, stats_.visibility);
   out.mirrored = follow(std::move(leaving.mirrored), out.cut_weight);
   out.refracted = follow(std::move(leaving.refracted), out.cut_weight);
 }

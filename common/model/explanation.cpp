@@ -35,7 +35,7 @@ LightRecord record_light(std::size_t light, const LightTerm<float>& term) {
 }
 
 LocalRecord record_local(const Scene& scene, const ShadingTables& tables, const Ray& ray, const Hit& hit,
-                         SignCounts& counts) {
+                         VisibilityCounts& counts) {
   LocalRecord record;
   record.hit = hit;
   record.surface = surface_at(scene, ray, hit, counts);

@@ -71,6 +71,6 @@ LightRecord record_light(std::size_t light, const LightTerm<float>& term);
 
 // Local light with every light seen, term by term: the scalar twin of what shade() computes, and so its bits.
 LocalRecord record_local(const Scene& scene, const ShadingTables& tables, const Ray& ray, const Hit& hit,
-                         SignCounts& counts);
+                         VisibilityCounts& counts);
 
 }  // namespace sidelight

@@ -66,7 +66,8 @@ Place locate_plane(const Plane& plane, const Ray& ray, const Hit& hit) {
   return place;
 }
 
-Place locate_triangle(const Scene& scene, const Triangle& triangle, const Ray& ray, SignCounts& counts) {
+Place locate_triangle(const Scene& scene, const Triangle& triangle, const Ray& ray,
+                      VisibilityCounts& counts) {
   const Corners v = corners(scene, triangle);
   const TriangleView view = view_triangle(ray.origin, v.v0, v.v1, v.v2);
   const std::array<double, 3> e = edge_values(view, ray.direction);
@@ -155,7 +156,8 @@ bool may_be_near(const Scene& scene, std::uint32_t triangle, const Ray& ray, con
 
 // Whether rays that leave a flat `hit` can meet the other at all: a triangle that lies behind it, or in its plane, they
 // cannot. So the edges of a convex body need nothing.
-bool rises(const Scene& scene, std::uint32_t other, const Ray& ray, const Hit& hit, SignCounts& counts) {
+bool rises(const Scene& scene, std::uint32_t other, const Ray& ray, const Hit& hit,
+           VisibilityCounts& counts) {
   const PrimitiveRef ref = primitive_ref(scene, other);
   if (ref.kind != ObjectKind::mesh || primitive_ref(scene, hit.primitive).kind == ObjectKind::sphere)
     return true;
@@ -169,7 +171,7 @@ bool rises(const Scene& scene, std::uint32_t other, const Ray& ray, const Hit& h
 // The side of the surface on which the ray travels just before `hit`: its origin's, unless it crossed it on the way, as
 // rays do that pass a surface unnoticed.
 int side_before(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& hit,
-                SignCounts& counts) {
+                VisibilityCounts& counts) {
   int side = side_of(scene, primitive, ray.origin, counts);
   Hit crossed = intersect(scene, primitive, ray, kRayStart, counts);
   for (; crossed.found() && before(crossed, hit); crossed = intersect(scene, primitive, ray, crossed, counts))
@@ -186,7 +188,7 @@ double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 
 }  // namespace
 
-Place locate(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts) {
+Place locate(const Scene& scene, const Ray& ray, const Hit& hit, VisibilityCounts& counts) {
   const PrimitiveRef ref = primitive_ref(scene, hit.primitive);
   Place place;
   switch (ref.kind) {
@@ -217,7 +219,7 @@ double nearness(const Ray& ray, const Hit& hit, const Place& place, double reach
 }
 
 bool stands_near(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& hit,
-                 const Place& place, SignCounts& counts) {
+                 const Place& place, VisibilityCounts& counts) {
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   if (primitive == hit.primitive) return false;
   if (ref.kind == ObjectKind::mesh &&
@@ -231,7 +233,7 @@ bool stands_near(const Scene& scene, std::uint32_t primitive, const Ray& ray, co
 }
 
 glm::dvec3 leaving_point(const Scene& scene, const Ray& ray, const Hit& hit, const Place& place,
-                         std::span<const std::uint32_t> near, SignCounts& counts) {
+                         std::span<const std::uint32_t> near, VisibilityCounts& counts) {
   if (near.empty()) return place.point + place.clearance * place.facing;
   std::vector<std::uint32_t> walls(near.begin(), near.end());
   walls.push_back(hit.primitive);

@@ -22,7 +22,7 @@ struct Place {
   double together = 0;                  // surfaces of depth <= together count as crossed with this one
 };
 
-Place locate(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts);
+Place locate(const Scene& scene, const Ray& ray, const Hit& hit, VisibilityCounts& counts);
 
 // `together` of a place whose facing and clearance are known.
 double together_depth(const Ray& ray, const Hit& hit, const Place& place);
@@ -38,11 +38,11 @@ double nearness(const Ray& ray, const Hit& hit, const Place& place, double reach
 
 // Whether the primitive is near, is another one, and can be met by rays that leave. A cheap no in most cases.
 bool stands_near(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& hit,
-                 const Place& place, SignCounts& counts);
+                 const Place& place, VisibilityCounts& counts);
 
 // `near`: the primitives of which stands_near() is true, ascending.
 glm::dvec3 leaving_point(const Scene& scene, const Ray& ray, const Hit& hit, const Place& place,
-                         std::span<const std::uint32_t> near, SignCounts& counts);
+                         std::span<const std::uint32_t> near, VisibilityCounts& counts);
 
 // ---- Solids ----
 

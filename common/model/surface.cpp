@@ -21,7 +21,7 @@ glm::dvec3 smooth_normal(const Scene& scene, const Triangle& triangle, const Pla
 
 }  // namespace
 
-Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts) {
+Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, VisibilityCounts& counts) {
   Surface surface{locate(scene, ray, hit, counts)};
   surface.object = scene.primitive_object[hit.primitive];
   surface.material = primitive_material(scene, hit.primitive);

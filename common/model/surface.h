@@ -18,6 +18,6 @@ struct Surface : Place {
   std::uint32_t material = 0;
 };
 
-Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, SignCounts& counts);
+Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, VisibilityCounts& counts);
 
 }  // namespace sidelight

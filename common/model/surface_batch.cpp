@@ -78,10 +78,10 @@ Ray ray_of(const Camera& camera, const SurfaceBatch& batch, std::size_t i) {
 
 // What the lanes leave undecided.
 void ask_again(const Scene& scene, const Camera& camera, const ShadingTables& tables, SurfaceBatch& batch,
-               std::size_t i, ShadingBatch& out, SignCounts& counts) {
+               std::size_t i, ShadingBatch& out, VisibilityCounts& counts) {
   const Ray ray = ray_of(camera, batch, i);
   Hit hit{batch.t[i], batch.primitive[batch.run[i]]};
-  SignCounts not_again;  // who found the primitive has counted this test
+  VisibilityCounts not_again;  // who found the primitive has counted this test
   if (!batch.has_t) hit = intersect(scene, hit.primitive, ray, kRayStart, not_again);
   batch.t[i] = hit.t;
   const Surface surface = surface_at(scene, ray, hit, counts);
@@ -105,7 +105,7 @@ void prefetch_surface(const Scene& scene, const PrimitiveRef& ref) {
 }
 
 void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables,
-                 SurfaceBatch& batch, ShadingBatch& out, SignCounts& counts) {
+                 SurfaceBatch& batch, ShadingBatch& out, VisibilityCounts& counts) {
   out.size = batch.size;
   if (batch.size == 0) return;
   pad(batch);

@@ -89,6 +89,6 @@ void prefetch_surface(const Scene& scene, const PrimitiveRef& ref);
 
 // Fills entries [0, size) of `out`, and of what batch asks for. The same bytes for every isa.
 void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const ShadingTables& tables,
-                 SurfaceBatch& batch, ShadingBatch& out, SignCounts& counts);
+                 SurfaceBatch& batch, ShadingBatch& out, VisibilityCounts& counts);
 
 }  // namespace sidelight

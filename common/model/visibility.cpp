@@ -25,7 +25,7 @@ constexpr double kDotCrossBound = 6 * kU;
 
 // The sign of x . (b x c), given edge = fl(b x c) and its permanent.
 int dot_cross_sign(const glm::dvec3& x, const glm::dvec3& edge, const glm::dvec3& weight, const glm::dvec3& b,
-                   const glm::dvec3& c, SignCounts& counts) {
+                   const glm::dvec3& c, VisibilityCounts& counts) {
   const double value = glm::dot(x, edge);
   const double bound = kDotCrossBound * glm::dot(absolute(x), weight);
   if (std::abs(value) > bound) {
@@ -61,7 +61,7 @@ Hit intersect_plane(const Plane& plane, std::uint32_t primitive, const Ray& ray,
 }
 
 Hit intersect_triangle(const Scene& scene, const Triangle& triangle, std::uint32_t primitive, const Ray& ray,
-                       const Hit& after, SignCounts& counts) {
+                       const Hit& after, VisibilityCounts& counts) {
   if (triangle.degenerate) return {};
   const auto [v0, v1, v2] = corners(scene, triangle);
   const TriangleView view = view_triangle(ray.origin, v0, v1, v2);
@@ -93,11 +93,11 @@ TriangleView view_triangle(const glm::dvec3& origin, const glm::dvec3& v0, const
   return view;
 }
 
-int view_side(const TriangleView& view, SignCounts& counts) {
+int view_side(const TriangleView& view, VisibilityCounts& counts) {
   return dot_cross_sign(view.a[0], view.edge[0], view.weight[0], view.a[1], view.a[2], counts);
 }
 
-int edge_agreement(const TriangleView& view, const glm::dvec3& direction, SignCounts& counts) {
+int edge_agreement(const TriangleView& view, const glm::dvec3& direction, VisibilityCounts& counts) {
   int agreed = 0;
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -177,7 +177,7 @@ Roots sphere_roots(const Sphere& sphere, const Ray& ray) {
 }
 
 Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after,
-              SignCounts& counts) {
+              VisibilityCounts& counts) {
   ++counts.tests;
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   switch (ref.kind) {
@@ -220,7 +220,7 @@ bool plane_behind(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& 
   return plane.a0_n > a0_doubt ? d_n < -d_doubt : plane.a0_n < -a0_doubt && d_n > d_doubt;
 }
 
-Hit nearest_of_all(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts) {
+Hit nearest_of_all(const Scene& scene, const Ray& ray, const Hit& after, VisibilityCounts& counts) {
   Hit nearest;
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
     const Hit hit = intersect(scene, primitive, ray, after, counts);
@@ -229,7 +229,7 @@ Hit nearest_of_all(const Scene& scene, const Ray& ray, const Hit& after, SignCou
   return nearest;
 }
 
-int side_of(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point, SignCounts& counts) {
+int side_of(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point, VisibilityCounts& counts) {
   const auto sign = [](double x) { return (x > 0) - (x < 0); };
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   switch (ref.kind) {
@@ -250,7 +250,7 @@ int side_of(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point
 }
 
 bool before_light(const Scene& scene, const Hit& hit, const Ray& ray, const glm::dvec3& light,
-                  SignCounts& counts) {
+                  VisibilityCounts& counts) {
   // Depth is good to 2^-18 at worst (triangle_depth): outside this margin it decides.
   constexpr double kMargin = 0x1p-16;
   if (hit.t < 1 - kMargin) return true;

@@ -71,11 +71,11 @@ TriangleView view_triangle(const glm::dvec3& origin, const glm::dvec3& v0, const
                            const glm::dvec3& v2);
 
 // The exact sign of a_0 . (a_1 x a_2): negative where the origin sees the front (outward) side.
-int view_side(const TriangleView& view, SignCounts& counts);
+int view_side(const TriangleView& view, VisibilityCounts& counts);
 
 // 1 where all three E_k >= 0, -1 where all are <= 0, 0 where both signs occur or all are zero. The ray meets the
 // triangle iff this equals view_side() and that is not 0.
-int edge_agreement(const TriangleView& view, const glm::dvec3& direction, SignCounts& counts);
+int edge_agreement(const TriangleView& view, const glm::dvec3& direction, VisibilityCounts& counts);
 
 // E_0, E_1, E_2 of a hit with the sign of the side and a relative error of their sum below 2^-20: in double, or exact and
 // rounded once where the triangle is seen nearly edge-on.
@@ -111,7 +111,7 @@ Roots sphere_roots(const Sphere& sphere, const Ray& ray);
 // from inside one sees the inside. Planes: a parallel or contained ray is a miss. A ray that is not finite, against the
 // contract, meets nothing. One of counts.tests.
 Hit intersect(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after,
-              SignCounts& counts);
+              VisibilityCounts& counts);
 
 // What intersect() finds of a triangle with these corners, for a ray that is known to meet it: only the depth is open.
 Hit met_triangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2, std::uint32_t primitive,
@@ -122,15 +122,15 @@ Hit met_triangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v
 bool plane_behind(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2, const Ray& ray);
 
 // The nearest hit of all primitives, by looking at every one of them.
-Hit nearest_of_all(const Scene& scene, const Ray& ray, const Hit& after, SignCounts& counts);
+Hit nearest_of_all(const Scene& scene, const Ray& ray, const Hit& after, VisibilityCounts& counts);
 
 // On which side of the surface a point lies, as intersect() tells it of a ray's origin: 1 on the outward one, -1 on the
 // other, 0 where it cannot be told from the surface. Of a triangle it is that of its plane, and exact.
-int side_of(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point, SignCounts& counts);
+int side_of(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point, VisibilityCounts& counts);
 
 // Whether `hit`, found along `ray` from P with direction light - P, lies strictly between P and the light. Decided by
 // t where that is clear and, next to the light, by the sides on which the two ends lie (exactly, for a triangle).
 bool before_light(const Scene& scene, const Hit& hit, const Ray& ray, const glm::dvec3& light,
-                  SignCounts& counts);
+                  VisibilityCounts& counts);
 
 }  // namespace sidelight

@@ -21,7 +21,7 @@ bool placeable(const Place& place) {
 }  // namespace
 
 Hit intersect_in_float(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after,
-                       SignCounts& counts) {
+                       VisibilityCounts& counts) {
   const PrimitiveRef ref = primitive_ref(scene, primitive);
   if (ref.kind != ObjectKind::mesh) return intersect(scene, primitive, ray, after, counts);
   ++counts.tests;

@@ -12,6 +12,6 @@ namespace sidelight {
 // As intersect(). A triangle's hit that the exact functions cannot place (the ray lies in its plane but for rounding)
 // is dropped, so that no picture holds a NaN.
 Hit intersect_in_float(const Scene& scene, std::uint32_t primitive, const Ray& ray, const Hit& after,
-                       SignCounts& counts);
+                       VisibilityCounts& counts);
 
 }  // namespace sidelight

@@ -70,12 +70,12 @@ void RenderStats::add_counts(const RenderStats& other) {
   rays.shadow += other.rays.shadow;
   rays.reflection += other.rays.reflection;
   rays.refraction += other.rays.refraction;
-  signs.filtered += other.signs.filtered;
-  signs.in_double += other.signs.in_double;
-  signs.exact += other.signs.exact;
-  signs.tests += other.signs.tests;
-  signs.fragments += other.signs.fragments;
-  signs.nodes += other.signs.nodes;
+  visibility.filtered += other.visibility.filtered;
+  visibility.in_double += other.visibility.in_double;
+  visibility.exact += other.visibility.exact;
+  visibility.tests += other.visibility.tests;
+  visibility.fragments += other.visibility.fragments;
+  visibility.nodes += other.visibility.nodes;
   self_shadowed += other.self_shadowed;
 }
 

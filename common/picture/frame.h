@@ -89,7 +89,7 @@ struct RayCounts {
 // three edge signs of all tests of a triangle but those that it finds doubtful. A node is one of the hierarchy that a ray
 // entered, or a packet of rays. A packet's tests are those of whole groups of 16 rays, so their number depends on how rays
 // are packed; a picture with the layer `cost` is traced ray by ray.
-struct SignCounts {
+struct VisibilityCounts {
   std::uint64_t filtered = 0, in_double = 0, exact = 0;
   std::uint64_t tests = 0;
   std::uint64_t fragments = 0;  // z-buffer only
@@ -104,7 +104,7 @@ struct StageTime {
 
 struct RenderStats {
   RayCounts rays;
-  SignCounts signs;
+  VisibilityCounts visibility;
   std::uint64_t self_shadowed = 0;  // light terms dropped because the surface stands in its own light
   double cut_weight = 0;            // mean over samples of the weights of all rays not sent
   std::vector<StageTime> stages;    // in their order; empty where a renderer does not time them
@@ -125,7 +125,7 @@ struct Frame {
   KeptArray<std::uint32_t> object_id;     // 0: background, else 1 + the object's number
   KeptArray<std::uint32_t> primitive_id;  // likewise
   KeptArray<glm::vec3> normal;            // N, unit, world space; 0 on background
-  // SignCounts::tests made for the pixel, all its samples together; empty unless asked for. Whole numbers,
+  // VisibilityCounts::tests made for the pixel, all its samples together; empty unless asked for. Whole numbers,
   // rounded to a float above 2^24.
   KeptArray<float> cost;
   // Of every sample (keep_samples), n*n a pixel, row by row within the pixel: primitive or kNone, and its depth t.

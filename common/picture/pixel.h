@@ -18,7 +18,7 @@ struct Sample {
   std::uint32_t object = 0, primitive = 0;     // as stored in a frame: 0 background, else 1 + number
   double t = 0;                                // depth along the sample's ray; 0 on background
   glm::vec3 normal{0};
-  std::uint64_t tests = 0;                     // what it cost (SignCounts)
+  std::uint64_t tests = 0;  // what it cost (VisibilityCounts)
 
   glm::vec3& operator[](Layer l) { return layer[static_cast<std::size_t>(l)]; }
 };

@@ -170,18 +170,18 @@ TEST_CASE("cost: the pixels add up to the statistics, and to nothing else than a
     const Camera camera = make_camera(scene.camera, 53, 37, 2);
     const Frame flat = rastered(scene, camera, keeping(kRasterLayers | kCost));
     const Frame deep = traced(scene, camera, keeping(kAllLayers));
-    CHECK(sum(flat.cost) == static_cast<double>(flat.stats.signs.tests));
-    CHECK(sum(deep.cost) == static_cast<double>(deep.stats.signs.tests));
+    CHECK(sum(flat.cost) == static_cast<double>(flat.stats.visibility.tests));
+    CHECK(sum(deep.cost) == static_cast<double>(deep.stats.visibility.tests));
 
     // Not asked for, it is not made, counted all the same, and changes nothing. (Waves count packets otherwise.)
     const Frame plain_flat = rastered(scene, camera), plain_deep = traced(scene, camera);
     CHECK(plain_flat.cost.empty());
     CHECK(plain_deep.cost.empty());
-    CHECK(plain_flat.stats.signs.tests == flat.stats.signs.tests);
+    CHECK(plain_flat.stats.visibility.tests == flat.stats.visibility.tests);
     const auto prepared = raytrace::prepare(scene);
     const Frame counted = raytrace::render_recursively(*prepared, camera, keeping(kRaytraceLayers));
-    CHECK(counted.stats.signs.tests == deep.stats.signs.tests);
-    CHECK(plain_deep.stats.signs.tests > 0);
+    CHECK(counted.stats.visibility.tests == deep.stats.visibility.tests);
+    CHECK(plain_deep.stats.visibility.tests > 0);
     CHECK(differences(plain_flat, flat) == "");
     CHECK(differences(plain_deep, deep) == "");
   }

@@ -207,7 +207,7 @@ PolygonMesh fan(const Camera& camera, double reach, Random random) {
 }
 
 std::uint64_t signs(const Frame& frame) {
-  return frame.stats.signs.filtered + frame.stats.signs.in_double + frame.stats.signs.exact;
+  return frame.stats.visibility.filtered + frame.stats.visibility.in_double + frame.stats.visibility.exact;
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ PolygonMesh tilted_quad(double depth, double tilt_x, double tilt_y) {
 
 TEST_CASE("RAS-7: of two planes the nearer one is found, from 1e-3 to 1e4 and to 1e7") {
   Random random(7);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t wrong = 0, pairs = 0;
   for (const double far : {1e4, 1e7})
     for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
@@ -136,7 +136,7 @@ TEST_CASE("RAS-9: coplanar surfaces and ties") {
   ++scenes;
   double most_ulps = 0;
   std::uint64_t two_depths = 0;
-  SignCounts counts;
+  VisibilityCounts counts;
   for (int Y = 0; Y < camera.rows(); ++Y)
     for (int X = 0; X < camera.columns(); ++X) {
       const Ray ray{camera.eye, camera.direction(X, Y)};

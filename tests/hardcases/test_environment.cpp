@@ -56,7 +56,7 @@ TEST_CASE("DET-2: lanes that are not used may hold anything") {
   const Scene scene = everything();
   const ShadingTables tables = make_shading_tables(scene, needs_of(scene));
   const Camera camera = relation_camera(scene);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::vector<std::pair<ShadingPoint<float>, std::uint32_t>> points;
   for (int X = 0; points.size() < 40 && X < 67; ++X) {
     const Ray ray{camera.eye, camera.direction(X, 30)};

@@ -50,7 +50,7 @@ Ray ray_at_box(Random& random) {
 }
 
 bool meets_anything(const Prepared& prepared, const Ray& ray, const Hit& after) {
-  SignCounts counts;
+  VisibilityCounts counts;
   const glm::dvec3 light = ray.origin + ray.direction;
   return raytrace::nearest(prepared, ray, after, counts).found() ||
          nearest_of_all(prepared.scene, ray, after, counts).found() ||
@@ -71,7 +71,7 @@ TEST_CASE("BVH-3: flat boxes are met as brute force meets their triangles") {
   const Scene box = scene_of(make_box({2, 2, 2}));  // twelve triangles with flat boxes
   const Prepared prepared(box);
   Random random(31);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t differing = 0, leaked = 0, inside = 0;
   for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
     const Ray ray = ray_at_box(random);
@@ -125,7 +125,7 @@ TEST_CASE("BVH-7: the largest primitive that is let in hides no other") {
   add_sphere(with, {{0, 3, 0}, 1e-30, 0}, {});
   const Prepared good(without), bad(with);
   Random random(37);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t changed = 0, hits = 0;
   for (std::uint64_t left = 1 + tier_count("rays_per_case") / 8; left > 0; --left) {
     const glm::dvec3 origin = 2.5 * random.direction();
@@ -144,7 +144,7 @@ TEST_CASE("BVH-8: rays that are not finite meet nothing, soon") {
   add_plane(scene, {{0, -1, 0}, {0, 1, 0}, 0}, {});
   const Prepared prepared(scene);
   Random random(41);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::vector<Ray> bad, good;
   for (int i = 0; i < 1000; ++i) {
     const Ray ray{random.in_box(0.5), random.direction()};

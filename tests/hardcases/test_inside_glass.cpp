@@ -129,7 +129,7 @@ TEST_CASE("REF-5: an eye in water in glass sees through both") {
 
 TEST_CASE("REF-5: the side that a ray comes from is that of D.N") {
   Random random(79);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t wrong = 0, hits = 0;
   const Scene ball = scene_of(Sphere{{1, 2, 3}, 2, 0}), star = scene_of(star_sphere(16, 16, 0.3, 3));
   for (std::uint64_t left = tier_count("rays_per_case") / 2; left > 0; --left)

@@ -20,7 +20,7 @@ TEST_CASE("RAS-10: barycentrics across depths in a ratio of 1e7") {
   Random random(10);
   double worst = 0, worst_of_bound = 0;
   std::uint64_t done = 0;
-  SignCounts counts;
+  VisibilityCounts counts;
   for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
     const double ratio = random.log_uniform(1, 1e7);
     glm::dvec2 pixel[3];

@@ -20,7 +20,7 @@ namespace {
 constexpr double kEps = 0x1p-52;
 
 Hit first_hit(const Scene& scene, const Ray& ray) {
-  SignCounts counts;
+  VisibilityCounts counts;
   return intersect(scene, 0, ray, kRayStart, counts);
 }
 

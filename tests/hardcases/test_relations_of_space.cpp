@@ -168,7 +168,7 @@ TEST_CASE("MET-13: a shadow ray from A to B is blocked iff that from B to A is")
   add_plane(scene, {{0, -1, 0}, {0.1, 1, 0.05}, 0}, {});
   const raytrace::Prepared prepared(scene);
   Random random(13);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t disagreeing = 0, pairs = 0, blocked = 0;
   for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
     const glm::dvec3 a = random.in_box(3), b = random.in_box(3);

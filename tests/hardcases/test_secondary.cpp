@@ -22,7 +22,7 @@ struct Departure {
   glm::dvec3 from{0}, facing{0};
 };
 Departure departure(const Scene& scene, const Ray& ray, const Hit& hit) {
-  SignCounts counts;
+  VisibilityCounts counts;
   const Place place = locate(scene, ray, hit, counts);
   return {start_of_leaving(scene, ray, hit, place, counts), place.facing};
 }
@@ -33,7 +33,7 @@ struct Again {
   std::uint64_t hits = 0, rays = 0;
 };
 void leave(const Scene& scene, const Ray& ray, Random& random, Again& again) {
-  SignCounts counts;
+  VisibilityCounts counts;
   const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
   if (!hit.found()) return;
   if (scene.objects[0].closed && !locate(scene, ray, hit, counts).entering) return;
@@ -109,7 +109,7 @@ TEST_CASE("SEC-4: no ray that leaves next to the contact of ball and floor sees 
   add_plane(scene, {{0, -1, 0}, {0, 1, 0}, 0}, {});
   const raytrace::Prepared prepared(scene);
   Random random(53);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t leaked = 0, rays = 0, below = 0;
   for (std::uint64_t left = 1 + tier_count("rays_per_case") / 4; left > 0; --left) {
     // Inside the gap or inside the ball, from where a ray meets one of the two.

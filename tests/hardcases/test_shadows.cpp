@@ -170,7 +170,7 @@ TEST_CASE("SHA-1: what a light on a surface shines on is lit, and the surface is
 TEST_CASE("SHA-2: no light leaves a closed body") {
   std::uint64_t lit = 0, rays = 0, lit_pixels = 0, pixels = 0;
   Random random(61);
-  SignCounts counts;
+  VisibilityCounts counts;
   struct Body {
     double scale, offset;
   };

@@ -81,7 +81,7 @@ TEST_CASE("TRI-3: every build finds the same hits, bit for bit") {
   }
   const Scene scene = scene_of(mesh_of(positions, faces));
   const raytrace::Prepared prepared(scene);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t hash = 0xCBF29CE484222325, hits = 0;
   for (std::uint32_t i = 0; i < 10000; ++i) {
     const glm::dvec3 origin = random.on_grid(1 << 11);
@@ -116,7 +116,7 @@ TEST_CASE("TRI-4: triangles without area change no bit of a picture") {
   // The sliver of the catalogue, which rounding may give an area.
   const glm::dvec3 v{-1113.45459, -79.049614, -56.2431908};
   const Scene sliver = scene_of_triangle(v, {v.x, -87.0922699, v.z}, {v.x, -79.2090149, v.z});
-  SignCounts counts;
+  VisibilityCounts counts;
   const Ray at_it{{-1081.47925, 99.9999542, 87.7701111}, {-32.1072998, -183.355865, -144.607635}};
   picture.holds("the sliver of three collinear points is not hit",
                 !nearest_of_all(sliver, at_it, kRayStart, counts).found());
@@ -145,7 +145,7 @@ TEST_CASE("TRI-4: a mesh that triangles without area close does not leak beside 
   REQUIRE(scene.triangles.back().degenerate);
   const raytrace::Prepared prepared(scene);
   Random random(13);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t leaked = 0;
   for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
     const glm::dvec3 origin = random.on_grid(1000);
@@ -159,7 +159,7 @@ TEST_CASE("TRI-4: a mesh that triangles without area close does not leak beside 
 TEST_CASE("TRI-7: t, u and v on the unit triangle") {
   Random random(17);
   const Scene scene = scene_of_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  SignCounts counts;
+  VisibilityCounts counts;
   Worst worst;
   for (int i = 0; i < 256; ++i) {
     double u = random.uniform(), v = random.uniform();
@@ -180,7 +180,7 @@ TEST_CASE("TRI-7: t, u and v on the unit triangle") {
 // sums 2 u V; 1 u V for the second order and b's own rounding.
 TEST_CASE("TRI-7: t, barycentrics and point on a star, at any scale and place") {
   Random random(19);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t outside = 0, hits = 0;
   Worst t_error, b_sum, point_error;
   const std::uint64_t each = 1 + tier_count("rays_per_case") / 20;
@@ -243,7 +243,7 @@ TEST_CASE("TRI-9: scaling by powers of two changes no hit, no barycentric and no
     const Scene scene = scaled(k);
     const raytrace::Prepared prepared(scene);
     Random random(23);
-    SignCounts counts;
+    VisibilityCounts counts;
     std::vector<Seen> all;
     for (std::uint64_t left = rays; left > 0; --left) {
       const glm::dvec3 origin = 3.0 * random.direction(), d = random.in_box(1.3) - origin;

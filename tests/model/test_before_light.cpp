@@ -20,7 +20,7 @@ namespace {
 
 // Whether the only primitive of the scene blocks the way from `point` to `light`.
 bool blocks(const Scene& scene, const glm::dvec3& point, const glm::dvec3& light) {
-  SignCounts counts;
+  VisibilityCounts counts;
   const Ray ray = make_ray(point, light - point);
   const Hit hit = intersect(scene, 0, ray, kRayStart, counts);
   return hit.found() && before_light(scene, hit, ray, light, counts);

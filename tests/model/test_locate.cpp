@@ -37,7 +37,7 @@ TEST_CASE("barycentrics add up to 1 and the point lies on its triangle, whatever
     const double b0 = random.uniform(), b1 = random.uniform() * (1 - b0);
     const Ray ray{origin, b0 * v[0] + b1 * v[1] + (1 - b0 - b1) * v[2] - origin};
     const Scene scene = scene_of_triangle(v[0], v[1], v[2]);
-    SignCounts counts;
+    VisibilityCounts counts;
     const Hit hit = intersect(scene, 0, ray, kRayStart, counts);
     if (!hit.found()) continue;
     ++hits;
@@ -64,7 +64,7 @@ TEST_CASE("barycentrics add up to 1 and the point lies on its triangle, whatever
 }
 
 TEST_CASE("locate worked out by hand for each kind of primitive") {
-  SignCounts counts;
+  VisibilityCounts counts;
   const auto place_at = [&](const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction) {
     const Ray ray{origin, direction};
     return locate(scene, ray, intersect(scene, 0, ray, kRayStart, counts), counts);

@@ -37,7 +37,7 @@ Departure depart(const Scene& scene, const glm::dvec3& center, double size, doub
                  const Height& height_above) {
   constexpr int kOutward = 64;
   Random random(42);
-  SignCounts counts;
+  VisibilityCounts counts;
   Departure result;
   double sum = 0;
   for (std::uint64_t left = 1 + tier_count("rays_per_gate") / kOutward; left > 0; --left) {
@@ -89,7 +89,7 @@ constexpr double kPlaces[]{0, 1, 1e3, 1e5, 1e6, 8388607, 1e12};
 
 // Whether a ray from the point crosses the mesh an odd number of times.
 bool inside_by_parity(const Scene& scene, const glm::dvec3& point, const glm::dvec3& direction) {
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t crossings = 0;
   for (Hit hit = nearest_of_all(scene, {point, direction}, kRayStart, counts); hit.found();
        hit = nearest_of_all(scene, {point, direction}, hit, counts))
@@ -149,7 +149,7 @@ TEST_CASE("rays that leave an edge or a corner of a room start inside, a few cle
   const PolygonMesh box = make_box({2, 2, 2});
   const Scene scene = scene_of(box);
   Random random(44);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t outside = 0, moved = 0, starts = 0;
   Worst distance;
   for (std::uint64_t left = 1 + tier_count("rays_per_case") / 20; left > 0; --left, ++starts) {
@@ -175,7 +175,7 @@ TEST_CASE("rays that leave an edge or a corner of a room start inside, a few cle
 TEST_CASE("rays that leave an edge of a convex body start one clearance above it") {
   const Scene scene = scene_of(octahedron({0, 0, 0}, 1));
   Random random(45);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t moved = 0, starts = 0;
   for (std::uint64_t left = 1 + tier_count("rays_per_case") / 20; left > 0; --left) {
     const double at = random.below(2) ? 0 : random.uniform();
@@ -196,7 +196,7 @@ TEST_CASE("rays that leave an edge of a convex body start one clearance above it
 TEST_CASE("a start lies on the side from which the ray arrives, also of a surface that it has passed") {
   Scene scene = scene_of(Plane{{0, 0, 0}, {1, 0, 0}, 0});
   add_plane(scene, {{0, 0, 0}, {0, 1, 0}, 0}, {});
-  SignCounts counts;
+  VisibilityCounts counts;
   // Through x = 0 at a height of 2^-52, and on to y = 0, next to where they cross.
   const Ray ray = make_ray({-0.5, 0.5 + 0x1p-52, 0}, {1, -1, 0});
   const Hit passed = intersect(scene, 0, ray, kRayStart, counts), hit = intersect(scene, 1, ray, passed, counts);

@@ -81,7 +81,7 @@ void check(Isa isa, const Scene& scene, const Camera& camera, const ShadingTable
            SurfaceBatch& batch, const std::vector<Ray>& rays, const std::vector<Hit>& hits,
            Outcome& outcome) {
   ShadingBatch out;
-  SignCounts counts, twin_counts;
+  VisibilityCounts counts, twin_counts;
   surfaces_at(isa, scene, camera, tables, batch, out, counts);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Surface surface = surface_at(scene, rays[i], hits[i], twin_counts);
@@ -125,7 +125,7 @@ Outcome compared(Isa isa, const Mode& mode) {
       batch.want_t = true;
       std::vector<Ray> rays;
       std::vector<Hit> hits;
-      SignCounts counts;
+      VisibilityCounts counts;
       const auto see = [&](std::uint32_t primitive, int X, int Y) {
         const Ray ray{camera.eye, camera.direction(X, Y)};
         const Hit hit = intersect(scene, primitive, ray, kRayStart, counts);

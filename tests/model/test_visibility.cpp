@@ -49,7 +49,7 @@ Leaks shoot_from_inside(const Target& target) {
   REQUIRE(scene.objects[0].closed);
   const raytrace::Prepared prepared(scene);
   Random random(17);
-  SignCounts counts;
+  VisibilityCounts counts;
   Leaks leaks;
   for (std::uint64_t left = tier_count("rays_per_gate"); left > 0; --left) {
     const glm::dvec3 origin = 0.5 * std::cbrt(random.uniform()) * random.direction();
@@ -71,7 +71,7 @@ void report(const Leaks& leaks, const std::string& aimed) {
 
 Hit first_hit(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction,
               const Hit& after = kRayStart) {
-  SignCounts counts;
+  VisibilityCounts counts;
   return nearest_of_all(scene, make_ray(origin, direction), after, counts);
 }
 

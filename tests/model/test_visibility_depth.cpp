@@ -48,7 +48,7 @@ void check_integer_triangle(const std::array<glm::dvec3, 3>& v, const glm::dvec3
   const TriangleView view = view_triangle(origin, v0, v1, v2);
   const double i = random.below(9), j = random.below(9), k = 1 + random.below(8);
   const glm::dvec3 d = i * view.a[0] + j * view.a[1] + k * view.a[2];
-  SignCounts counts;
+  VisibilityCounts counts;
   ++tally.rays;
   const Hit hit = intersect(scene, 0, {origin, d}, kRayStart, counts);
   const bool in_plane = determinant(integers(view.a[0]), integers(view.a[1]), integers(view.a[2])) == 0;
@@ -105,7 +105,7 @@ TEST_CASE("the depth of any triangle is within its bound of the quotient in 113 
                                       center + random.in_box(size * random.log_uniform(1e-6, 1))};
     const double b0 = random.uniform(), b1 = random.uniform() * (1 - b0);
     const glm::dvec3 d = b0 * v[0] + b1 * v[1] + (1 - b0 - b1) * v[2] - origin;
-    SignCounts counts;
+    VisibilityCounts counts;
     const Hit hit = intersect(scene_of_triangle(v[0], v[1], v[2]), 0, {origin, d}, kRayStart, counts);
     if (!hit.found()) continue;
 
@@ -128,7 +128,7 @@ TEST_CASE("scaling a triangle and its ray by a power of two changes no bit") {
   for (std::uint64_t left = tier_count("rays_per_case") / 8; left > 0; --left) {
     const std::array<glm::dvec3, 3> v{random.in_box(1), random.in_box(1), random.in_box(1)};
     const glm::dvec3 origin = random.in_box(2), d = (v[0] + v[1] + v[2]) / 3.0 + random.in_box(0.3) - origin;
-    SignCounts counts;
+    VisibilityCounts counts;
     const auto at_scale = [&](double s) {
       Scene scene = scene_of_triangle(v[0], v[1], v[2]);
       for (glm::dvec3& p : scene.positions) p *= s;

@@ -39,7 +39,7 @@ ExactRoots exact_roots(const Sphere& sphere, const Ray& ray) {
 }
 
 Hit first_hit(const Scene& scene, const Ray& ray, const Hit& after = kRayStart) {
-  SignCounts counts;
+  VisibilityCounts counts;
   return intersect(scene, 0, ray, after, counts);
 }
 

@@ -139,8 +139,8 @@ TEST_CASE("counts add up, the cut weight does not") {
   RenderStats a, b;
   a.rays = {1, 2, 3, 4};
   b.rays = {10, 20, 30, 40};
-  a.signs = {5, 6, 7, 9};
-  b.signs = {50, 60, 70, 90};
+  a.visibility = {5, 6, 7, 9};
+  b.visibility = {50, 60, 70, 90};
   a.self_shadowed = 8;
   b.self_shadowed = 80;
   a.cut_weight = 0.5;
@@ -150,10 +150,10 @@ TEST_CASE("counts add up, the cut weight does not") {
   CHECK(a.rays.shadow == 22);
   CHECK(a.rays.reflection == 33);
   CHECK(a.rays.refraction == 44);
-  CHECK(a.signs.filtered == 55);
-  CHECK(a.signs.in_double == 66);
-  CHECK(a.signs.exact == 77);
-  CHECK(a.signs.tests == 99);
+  CHECK(a.visibility.filtered == 55);
+  CHECK(a.visibility.in_double == 66);
+  CHECK(a.visibility.exact == 77);
+  CHECK(a.visibility.tests == 99);
   CHECK(a.self_shadowed == 88);
   CHECK(a.cut_weight == 0.5);
 }

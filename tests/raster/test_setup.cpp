@@ -55,7 +55,7 @@ bool is_inside(const SampleBox& box, int X, int Y) {
 }
 
 void compare_with_intersect(const Scene& scene, const Camera& camera, Tally& tally) {
-  SignCounts counts;
+  VisibilityCounts counts;
   const SampleBox box = raster::box_of_primitive(scene, camera, 0);
   for (int Y = 0; Y < camera.rows(); ++Y)
     for (int X = 0; X < camera.columns(); ++X) {

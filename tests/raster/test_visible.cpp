@@ -23,7 +23,7 @@ Frame judged(const Scene& scene, const Camera& camera, RenderOptions options = k
   options.layers |= layer_bit(Layer::cost);
   const Frame twin = rastered(scene, camera, options);
   CHECK(differences(fast, twin) == "");
-  CHECK(fast.stats.signs.tests == twin.stats.signs.tests);
+  CHECK(fast.stats.visibility.tests == twin.stats.visibility.tests);
 
   options.layers &= ~layer_bit(Layer::cost);
   const auto prepared = raster::prepare(scene);
@@ -32,11 +32,11 @@ Frame judged(const Scene& scene, const Camera& camera, RenderOptions options = k
     options.isa = isa;
     options.threads = 3;
     const Frame other = raster::render(*prepared, camera, options);
-    CHECK(other.stats.signs.tests == fast.stats.signs.tests);
-    CHECK(other.stats.signs.fragments == fast.stats.signs.fragments);
-    CHECK(other.stats.signs.filtered == fast.stats.signs.filtered);
-    CHECK(other.stats.signs.in_double == fast.stats.signs.in_double);
-    CHECK(other.stats.signs.exact == fast.stats.signs.exact);
+    CHECK(other.stats.visibility.tests == fast.stats.visibility.tests);
+    CHECK(other.stats.visibility.fragments == fast.stats.visibility.fragments);
+    CHECK(other.stats.visibility.filtered == fast.stats.visibility.filtered);
+    CHECK(other.stats.visibility.in_double == fast.stats.visibility.in_double);
+    CHECK(other.stats.visibility.exact == fast.stats.visibility.exact);
   }
   options.tile = 7;
   CHECK(differences(raster::render(*prepared, camera, options), twin) == "");
@@ -107,7 +107,7 @@ TEST_CASE("visible: vertices on the rays of samples, edges through them, and sha
       faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     const Frame frame = judged(scene_of(mesh_of(positions, faces)), camera);
-    CHECK((off > 0 || frame.stats.signs.exact > 0));
+    CHECK((off > 0 || frame.stats.visibility.exact > 0));
   }
 }
 

@@ -37,7 +37,7 @@ Hit expected(const BallBatch& batch, std::size_t i) {
   Scene scene = empty_scene();
   add_sphere(scene, {get(batch.center, i), batch.radius[i], 0}, {});
   const Ray ray{get(batch.origin, i), get(batch.direction, i)};
-  SignCounts counts;
+  VisibilityCounts counts;
   const Hit first = intersect(scene, 0, ray, kRayStart, counts);
   return batch.passes[i] != 0 && first.found() ? intersect(scene, 0, ray, first, counts) : first;
 }

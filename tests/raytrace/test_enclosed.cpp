@@ -117,7 +117,7 @@ TEST_CASE("enclosed points: inside of a ball every ray is blocked") {
     const std::size_t around = enclosures.around(from, media, false);
     if (!enclosures.hide(around, 0)) continue;
     ++hidden;
-    SignCounts counts;
+    VisibilityCounts counts;
     const glm::dvec3 light = scene.lights[0].position;
     CHECK(blocker(prepared, make_ray(from, light - from), &light, counts).found());
   }

@@ -58,7 +58,7 @@ Scene crowded_scene(Random& random) {
 
 // All hits of all primitives but `own` at a depth up to `last`.
 std::uint64_t others_up_to(const Scene& scene, const Ray& ray, std::uint32_t own, double last) {
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t others = 0;
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
     if (primitive == own) continue;
@@ -71,7 +71,7 @@ std::uint64_t others_up_to(const Scene& scene, const Ray& ray, std::uint32_t own
 // A ray into the surface from where rays start that leave.
 void check_passes(const Prepared& prepared, const Place& place, const Hit& hit, Random& random) {
   const Scene& scene = prepared.scene;
-  SignCounts counts;
+  VisibilityCounts counts;
   const glm::dvec3 into = -outward(place.facing, random);
   if (!raytrace::is_steep(into, place.facing)) return;
   const Ray ray = make_ray(place.point + place.clearance * place.facing, into);
@@ -86,7 +86,7 @@ void check_passes(const Prepared& prepared, const Place& place, const Hit& hit, 
 
 void check_lone(const Prepared& prepared, const Ray& ray, const Hit& hit, Lone lone, Random& random) {
   const Scene& scene = prepared.scene;
-  SignCounts counts;
+  VisibilityCounts counts;
   const Place place = locate(scene, ray, hit, counts);
   CHECK((lone == Lone::entering) == place.entering);
   const std::vector<Hit> together = hits_between(prepared, ray, hit, place.together, counts);
@@ -144,7 +144,7 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
   for (std::uint64_t left = 1 + tier_count("rays_per_case") / 2000; left > 0; --left) {
     const Scene scene = crowded_scene(random);
     const Prepared prepared(scene);
-    SignCounts counts;
+    VisibilityCounts counts;
     Clearings clearings(prepared, 1);
     for (int i = 0; i < 100; ++i) {
       const auto& triangle =
@@ -186,7 +186,7 @@ TEST_CASE("lone hits: where a ball is clear brute force finds nothing near") {
     Scene scene = touching_balls(random, touching);
     scene.materials[0].reflect = glm::dvec3(0.5);
     const Prepared prepared(scene);
-    SignCounts counts;
+    VisibilityCounts counts;
     Clearings clearings(prepared, 1);
     for (int i = 0; i < 200; ++i) {
       const glm::dvec3 at = touching[random.below(static_cast<std::uint32_t>(touching.size()))];
@@ -223,7 +223,7 @@ TEST_CASE("lone hits: inside a secluded ball brute force finds its far side") {
       if (!prepared.secluded[i]) continue;
       ++secluded;
       const Sphere& ball = scene.spheres[i];
-      SignCounts counts;
+      VisibilityCounts counts;
       for (int k = 0; k < 10; ++k) {
         const Ray ray =
             make_ray(ball.center + ball.radius * random.uniform() * random.direction(), random.direction());

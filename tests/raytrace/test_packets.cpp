@@ -80,7 +80,7 @@ Camera drawn_camera(Scene& scene, const Drawn& drawn, Random& random) {
 // Where rays to lights leave: all that the eye sees.
 std::vector<ShadowQuery> seen_places(const Prepared& prepared, const Camera& camera) {
   std::vector<ShadowQuery> queries;
-  SignCounts counts;
+  VisibilityCounts counts;
   for (int Y = 0; Y < camera.rows(); ++Y)
     for (int X = 0; X < camera.columns(); ++X) {
       const Ray ray{camera.eye, camera.direction(X, Y)};
@@ -131,7 +131,7 @@ struct Counts {
 
 Counts check_eye(const Prepared& prepared, const Camera& camera, Isa isa) {
   Counts result;
-  SignCounts counts;
+  VisibilityCounts counts;
   raytrace::EyePackets packets(prepared, camera, isa);
   std::vector<Hit> hits;
   std::vector<std::uint8_t> alone;
@@ -159,7 +159,7 @@ Counts check_eye(const Prepared& prepared, const Camera& camera, Isa isa) {
 Counts check_shadows(const Prepared& prepared, const Light& light, const std::vector<ShadowQuery>& queries,
                      bool seen_by_eye, Isa isa) {
   Counts result;
-  SignCounts counts;
+  VisibilityCounts counts;
   raytrace::ShadowQueries asked;
   asked.seen_by_eye = seen_by_eye;
   asked.resize(queries.size());

@@ -72,13 +72,13 @@ Ray random_ray(const Scene& scene, const Placement& placement, Random& random) {
   return make_ray(origin, random.log_uniform(1e-3, 1e3) * direction);
 }
 
-bool same(const SignCounts& a, const SignCounts& b) {
+bool same(const VisibilityCounts& a, const VisibilityCounts& b) {
   return a.nodes == b.nodes && a.tests == b.tests && a.filtered == b.filtered && a.in_double == b.in_double &&
          a.exact == b.exact;
 }
 
 bool is_blocked(const Scene& scene, const Ray& ray, const glm::dvec3* light) {
-  SignCounts counts;
+  VisibilityCounts counts;
   for (std::uint32_t p = 0; p < scene.primitive_object.size(); ++p) {
     const Hit hit = intersect(scene, p, ray, kRayStart, counts);
     if (hit.found() && (!light || before_light(scene, hit, ray, *light, counts))) return true;
@@ -97,7 +97,7 @@ TEST_CASE("BVH: nearest, blocker and leaving_point are those of brute force on e
     const Prepared prepared(scene);
     for (std::uint64_t i = 0; i < rays; ++i) {
       const Ray ray = random_ray(scene, placement, random);
-      SignCounts counts;
+      VisibilityCounts counts;
       const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
       const Place place = hit.found() ? locate(scene, ray, hit, counts) : Place{};
       const glm::dvec3 from = hit.found() ? start_of_leaving(scene, ray, hit, place, counts) : ray.origin;
@@ -106,10 +106,10 @@ TEST_CASE("BVH: nearest, blocker and leaving_point are those of brute force on e
       const Ray leaving = make_ray(from, lamp - from);
       const glm::dvec3* light = i % 2 == 0 ? &lamp : nullptr;
       const bool blocked = is_blocked(scene, leaving, light);
-      std::optional<std::pair<SignCounts, Hit>> first;
+      std::optional<std::pair<VisibilityCounts, Hit>> first;
       for (const Isa isa : kIsas) {
         if (!machine_has(isa)) continue;
-        SignCounts own;
+        VisibilityCounts own;
         differing += nearest(prepared, ray, kRayStart, own, Precision::exact, isa) != hit;
         const Hit blocker =
             raytrace::blocker(prepared, leaving, light, own, kRayStart, Precision::exact, isa);
@@ -143,7 +143,7 @@ TEST_CASE("BVH: what rays of a bundle meet they meet alone, on every instruction
         question.ray =
             make_ray(ray.origin + apart * random.in_box(1), ray.direction + apart * random.in_box(1));
         if (broken && random.uniform() < 0.2) question.ray.direction.x = std::nan("");
-        SignCounts counts;
+        VisibilityCounts counts;
         const Hit hit = nearest(prepared, question.ray, kRayStart, counts);
         question.after = random.uniform() < 0.3 && hit.found() ? hit : kRayStart;
         if (random.uniform() < 0.3) question.except = hit.primitive;
@@ -151,11 +151,11 @@ TEST_CASE("BVH: what rays of a bundle meet they meet alone, on every instruction
             question.after == kRayStart)
           question.best = hit;
       }
-      std::optional<SignCounts> first;
+      std::optional<VisibilityCounts> first;
       for (const Isa isa : kIsas) {
         if (!machine_has(isa)) continue;
         auto bundled = questions;
-        SignCounts counts, alone;
+        VisibilityCounts counts, alone;
         nearest_beside(prepared, bundled, counts, isa);
         for (std::size_t i = 0; i < questions.size(); ++i) {
           const auto& [way, after, except, best] = questions[i];
@@ -192,11 +192,11 @@ TEST_CASE("BVH: shadow rays of a bundle are blocked where they are alone, on eve
         question.ray = make_ray(origin, directional ? ray.direction : light - origin);
         if (random.uniform() < 0.02) question.ray.direction.x = std::nan("");
       }
-      std::optional<SignCounts> first;
+      std::optional<VisibilityCounts> first;
       for (const Isa isa : kIsas) {
         if (!machine_has(isa)) continue;
         auto bundled = questions;
-        SignCounts counts, alone;
+        VisibilityCounts counts, alone;
         find_blocked(prepared, bundled, directional ? nullptr : &light, counts, isa);
         for (std::size_t i = 0; i < questions.size(); ++i) {
           const bool expected = blocker(prepared, questions[i].ray, directional ? nullptr : &light, alone,
@@ -238,7 +238,7 @@ TEST_CASE("BVH: balls next to a light block the rays of a bundle that meet them 
     for (const Isa isa : kIsas) {
       if (!machine_has(isa)) continue;
       auto bundled = questions;
-      SignCounts counts;
+      VisibilityCounts counts;
       find_blocked(prepared, bundled, &light, counts, isa);
       for (std::size_t i = 0; i < questions.size(); ++i) {
         const bool expected = is_blocked(scene, questions[i].ray, &light);
@@ -260,7 +260,7 @@ TEST_CASE("BVH: a ray that starts in the plane of a floor does not meet it") {
   std::uint64_t differing = 0;
   for (int i = 0; i < 2000; ++i) {
     const Ray ray{{random.uniform(-1, 1), -1, random.uniform(-1, 1)}, random.direction()};
-    SignCounts counts;
+    VisibilityCounts counts;
     const Hit expected = nearest_of_all(scene, ray, kRayStart, counts);
     for (const Isa isa : kIsas)
       differing +=
@@ -283,7 +283,7 @@ TEST_CASE("met_triangle is intersect of a triangle that is met, whose plane is n
     if (random.uniform() < 0.5)
       origin = target + far * (v1 - v0) + random.log_uniform(1e-14, 1) * random.direction();
     const Ray ray = make_ray(origin, target - origin);
-    SignCounts counts;
+    VisibilityCounts counts;
     const Hit hit = intersect(scene, 0, ray, kRayStart, counts);
     if (!hit.found()) continue;
     ++hits;

@@ -52,7 +52,7 @@ Ray ray_on_grid(const Scene& scene, Random& random) {
 
 // A hit that intersect() gives for its primitive, or none.
 bool is_hit_of(const Scene& scene, const Ray& ray, const Hit& hit) {
-  SignCounts counts;
+  VisibilityCounts counts;
   return !hit.found() || intersect(scene, hit.primitive, ray, kRayStart, counts) == hit;
 }
 
@@ -62,7 +62,7 @@ bool is_hit_of(const Scene& scene, const Ray& ray, const Hit& hit) {
 TEST_CASE("the sign of a zero in a direction changes no hit") {
   const Scene scene = scene_of(star_sphere(24, 24, 1, 2));
   const Prepared prepared(scene);
-  SignCounts counts;
+  VisibilityCounts counts;
   std::uint64_t differing = 0, hits = 0;
   for (int axis = 0; axis < 3; ++axis)
     for (int i = -32; i <= 32; ++i)
@@ -88,7 +88,7 @@ TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and 
   for (std::uint64_t i = 0; i < scenes; ++i) {
     const Scene scene = scene_on_grid(random, i % 10 == 0 ? 2000 : 200);
     const Prepared prepared(scene);
-    SignCounts counts;
+    VisibilityCounts counts;
     for (std::uint64_t left = rays; left > 0; --left) {
       const Ray ray = ray_on_grid(scene, random);
       const Hit expected = nearest_of_all(scene, ray, kRayStart, counts);
@@ -126,7 +126,7 @@ TEST_CASE("hits_between is every hit in the interval, in order, those at its end
   for (int i = 0; i < 20; ++i) {
     const Scene scene = scene_on_grid(random);
     const Prepared prepared(scene);
-    SignCounts counts;
+    VisibilityCounts counts;
     for (int left = 20; left > 0; --left) {
       const Ray ray = ray_on_grid(scene, random);
       std::vector<Hit> all;
@@ -153,14 +153,14 @@ TEST_CASE("what casts no shadow blocks nothing") {
   scene.materials[0].casts_shadow = false;
   const Prepared prepared(scene);
   const Ray ray{{0, 0, 0}, {0, 0, -1}};
-  SignCounts counts;
+  VisibilityCounts counts;
   CHECK_FALSE(blocker(prepared, ray, nullptr, counts).found());
   scene.materials[0].casts_shadow = true;
   CHECK(blocker(prepared, ray, nullptr, counts) == Hit{4, 0});
 }
 
 TEST_CASE("an empty scene, and one of planes or degenerate triangles alone, is traversed too") {
-  SignCounts counts;
+  VisibilityCounts counts;
   const Ray down{{0, 1, 0}, {0, -1, 0}};
   const Scene nothing = empty_scene(), flat = scene_of_triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0});
   const Scene floor = scene_of(Plane{{0, 0, 0}, {0, 1, 0}, 0});

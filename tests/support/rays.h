@@ -25,7 +25,7 @@ inline glm::dvec3 outward(const glm::dvec3& normal, Random& random) {
 
 // By brute force.
 inline glm::dvec3 start_of_leaving(const Scene& scene, const Ray& ray, const Hit& hit, const Place& place,
-                                   SignCounts& counts) {
+                                   VisibilityCounts& counts) {
   std::vector<std::uint32_t> near;
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive)
     if (stands_near(scene, primitive, ray, hit, place, counts)) near.push_back(primitive);

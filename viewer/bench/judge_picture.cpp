@@ -27,11 +27,11 @@ Image8 difference_picture(std::span<const glm::vec3> a, std::span<const glm::vec
 void add_counts(const Frame& frame, BenchPoint& point) {
   const RenderStats& stats = frame.stats;
   point.rays = stats.rays.total();
-  point.fragments = stats.signs.fragments;
-  point.tests = stats.signs.tests;
+  point.fragments = stats.visibility.fragments;
+  point.tests = stats.visibility.tests;
   if (point.rays == 0) return;
-  point.tests_per_ray = static_cast<double>(stats.signs.tests) / static_cast<double>(point.rays);
-  point.nodes_per_ray = static_cast<double>(stats.signs.nodes) / static_cast<double>(point.rays);
+  point.tests_per_ray = static_cast<double>(stats.visibility.tests) / static_cast<double>(point.rays);
+  point.nodes_per_ray = static_cast<double>(stats.visibility.nodes) / static_cast<double>(point.rays);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace sidelight {
 
 double steps_an_eye_ray(const RenderStats& stats) {
   if (stats.rays.primary == 0) return 0;
-  return static_cast<double>(stats.rays.total() + stats.signs.nodes + stats.signs.tests) /
+  return static_cast<double>(stats.rays.total() + stats.visibility.nodes + stats.visibility.tests) /
          static_cast<double>(stats.rays.primary);
 }
 
