@@ -111,7 +111,7 @@ template <class F, class D, class Filter, int kRows, class Ask>
     for (; by != 0; by &= by - 1) {
       const auto r = static_cast<std::size_t>(std::countr_zero(by));
       const LeafVerdict verdict = filters[r](leaf, count, rays.limit[r]);
-      verdicts[r] = verdict;
+      verdicts[r] = verdict;  // and not read back here: its halves, stored one by one, would be waited for
       asking |= std::uint32_t{verdict.may != 0} << r;
       dropped += count - static_cast<std::uint32_t>(std::popcount(verdict.may));
     }
