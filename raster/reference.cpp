@@ -17,8 +17,8 @@
 namespace sidelight::raster {
 namespace {
 
-using glm::dvec3;
 using glm::dot;
+using glm::dvec3;
 using glm::normalize;
 
 struct LocalLight {
@@ -39,7 +39,8 @@ dvec3 normal_facing_viewer(const Scene& scene, const Hit& hit, const Place& plac
 }
 
 // I = ka Ia + sum_i f_i(d) I_i [ kd (N.L) + ks (Rl.V)^s ]
-LocalLight local_light(const Scene& scene, const Material& material, const dvec3& point, const dvec3& N, const dvec3& V) {
+LocalLight local_light(const Scene& scene, const Material& material, const dvec3& point, const dvec3& N,
+                       const dvec3& V) {
   LocalLight sum;
   sum.ambient = material.ambient * scene.ambient;
   for (const Light& light : scene.lights) {
@@ -48,11 +49,11 @@ LocalLight local_light(const Scene& scene, const Material& material, const dvec3
     if (!light.directional) {
       const dvec3 to_light = light.position - point;
       const double d = glm::length(to_light);
-      if (d == 0) continue;   // a light at the point itself adds nothing
+      if (d == 0) continue;  // a light at the point itself adds nothing
       L = to_light / d;
       f = 1 / (light.attenuation.q0 + light.attenuation.q1 * d + light.attenuation.q2 * d * d);
     }
-    if (dot(N, L) <= 0) continue;   // behind the surface
+    if (dot(N, L) <= 0) continue;  // behind the surface
     const dvec3 Rl = 2 * dot(N, L) * N - L;
     const double highlight = dot(Rl, V) > 0 ? std::pow(dot(Rl, V), material.shininess) : 0;
     sum.diffuse += f * light.intensity * material.diffuse * dot(N, L);

@@ -26,7 +26,8 @@ template <class Recorder>
 void DepthTile<Recorder>::draw(const Scene& scene, std::uint32_t primitive, VisibilityCounts& counts) {
   const SampleBox box = intersection(box_of_primitive(scene, camera_, primitive), samples_);
   const PrimitiveRef ref = primitive_ref(scene, primitive);
-  if (ref.kind == ObjectKind::mesh) return draw_triangle(scene, primitive, scene.triangles[ref.index], box, counts);
+  if (ref.kind == ObjectKind::mesh)
+    return draw_triangle(scene, primitive, scene.triangles[ref.index], box, counts);
 
   // Spheres and planes: solved at each sample they may cover.
   add_tests(box);
@@ -45,14 +46,15 @@ void DepthTile<Recorder>::draw_triangle(const Scene& scene, std::uint32_t primit
   const glm::dvec3& v2 = scene.positions[triangle.vertex[2]];
   const TriangleView view = view_triangle(camera_.eye, v0, v1, v2);
   const int side = view_side(view, counts);
-  if (side == 0) return;   // seen exactly edge-on
+  if (side == 0) return;  // seen exactly edge-on
   const DepthPlane plane = depth_plane(view, v0, v1, v2);
   add_tests(box);
   for (int Y = box.y0; Y < box.y1; ++Y)
     for (int X = box.x0; X < box.x1; ++X) {
       const glm::dvec3 d = direction(X, Y);
       ++counts.tests;
-      if (edge_agreement(view, d, counts) == side) keep(X, Y, {triangle_depth(view, plane, d), primitive}, counts);
+      if (edge_agreement(view, d, counts) == side)
+        keep(X, Y, {triangle_depth(view, plane, d), primitive}, counts);
     }
 }
 

@@ -42,10 +42,12 @@ class DepthTile {
 
  private:
   std::size_t index(int X, int Y) const {
-    return static_cast<std::size_t>(Y - samples_.y0) * columns_.size() + static_cast<std::size_t>(X - samples_.x0);
+    return static_cast<std::size_t>(Y - samples_.y0) * columns_.size() +
+           static_cast<std::size_t>(X - samples_.x0);
   }
   glm::dvec3 direction(int X, int Y) const {
-    return (columns_[static_cast<std::size_t>(X - samples_.x0)] + rows_[static_cast<std::size_t>(Y - samples_.y0)]) +
+    return (columns_[static_cast<std::size_t>(X - samples_.x0)] +
+            rows_[static_cast<std::size_t>(Y - samples_.y0)]) +
            axis_;
   }
   void keep(int X, int Y, const Hit& hit, VisibilityCounts& counts) {
@@ -61,10 +63,10 @@ class DepthTile {
 
   const Camera& camera_;
   SampleBox samples_;
-  std::vector<glm::dvec3> columns_, rows_;   // the summands of Camera::direction
+  std::vector<glm::dvec3> columns_, rows_;  // the summands of Camera::direction
   glm::dvec3 axis_;
   std::vector<Hit> nearest_;
-  std::vector<std::uint32_t> tests_;   // empty unless they are counted
+  std::vector<std::uint32_t> tests_;  // empty unless they are counted
   Recorder& recorder_;
 };
 

@@ -14,18 +14,18 @@ namespace sidelight {
 // What one light adds to a surface: T = diffuse + specular, counted where `seen`.
 struct LightRecord {
   std::size_t light = 0;
-  float cosine = 0, highlight = 0, arriving = 0;   // N.L, (Rl.V)^s, f(d)
-  glm::vec3 diffuse{0}, specular{0};               // c1 not included
-  bool seen = true;                                // b_i
-  bool self_shadowed = false;                      // not seen, since the surface stands in its own light
-  std::uint32_t blocker = kNone;                   // primitive that stands in between, where one was met
+  float cosine = 0, highlight = 0, arriving = 0;  // N.L, (Rl.V)^s, f(d)
+  glm::vec3 diffuse{0}, specular{0};              // c1 not included
+  bool seen = true;                               // b_i
+  bool self_shadowed = false;                     // not seen, since the surface stands in its own light
+  std::uint32_t blocker = kNone;                  // primitive that stands in between, where one was met
 };
 
 // Local light at a surface: c1 (ambient + sum of T over the lights that are seen).
 struct LocalRecord {
   Hit hit;
   Surface surface;
-  glm::vec3 local{0}, ambient{0};   // c1, ka Ia
+  glm::vec3 local{0}, ambient{0};  // c1, ka Ia
   std::vector<LightRecord> lights;
 };
 
@@ -33,14 +33,14 @@ struct LocalRecord {
 
 struct FragmentRecord {
   Hit hit;
-  bool kept = false;   // nearer than all that were drawn before it
+  bool kept = false;  // nearer than all that were drawn before it
 };
 
 struct RasterRecord {
-  std::vector<FragmentRecord> fragments;   // in drawing order
+  std::vector<FragmentRecord> fragments;  // in drawing order
   bool background = true;
-  LocalRecord local;                       // unless background
-  glm::vec3 color{0};                      // of the sample
+  LocalRecord local;   // unless background
+  glm::vec3 color{0};  // of the sample
 };
 
 // ---- The tracer: the tree of rays ----
@@ -55,11 +55,11 @@ struct RayRecord {
   // How the parent counts it: c w(r) color. 1 for the eye ray.
   glm::vec3 coefficient{1};
   float falloff = 1;
-  bool sent = true;                  // false: too deep or too light, and black
-  std::vector<Hit> passed;           // surfaces inside one medium, passed without colour
-  bool background = true;            // it met nothing
-  LocalRecord local;                 // unless background
-  glm::vec3 color{0};                // what it brings back
+  bool sent = true;         // false: too deep or too light, and black
+  std::vector<Hit> passed;  // surfaces inside one medium, passed without colour
+  bool background = true;   // it met nothing
+  LocalRecord local;        // unless background
+  glm::vec3 color{0};       // what it brings back
   std::vector<RayRecord> children;
 };
 

@@ -14,9 +14,9 @@ namespace sidelight {
 // One sample as a renderer knows it. Layers that a frame does not hold are ignored.
 struct Sample {
   glm::vec3 color{0};
-  std::array<glm::vec3, kRgbLayers> layer{};   // indexed by Layer
-  std::uint32_t object = 0, primitive = 0;     // as stored in a frame: 0 background, else 1 + number
-  double t = 0;                                // depth along the sample's ray; 0 on background
+  std::array<glm::vec3, kRgbLayers> layer{};  // indexed by Layer
+  std::uint32_t object = 0, primitive = 0;    // as stored in a frame: 0 background, else 1 + number
+  double t = 0;                               // depth along the sample's ray; 0 on background
   glm::vec3 normal{0};
   std::uint64_t tests = 0;  // what it cost (VisibilityCounts)
 

@@ -8,7 +8,6 @@
 
 #include "common/model/visibility.h"
 #include "tests/hardcases/result.h"
-#include "tests/hardcases/result.h"
 #include "tests/support/scenes.h"
 #include "tests/support/wide.h"
 #include "tests/tier.h"
@@ -87,8 +86,9 @@ TEST_CASE("a light that lies on a surface is not behind it") {
   const HardCase at("SHA-5");
   at.holds("a triangle through the light does not block it", !blocks(wall_at(10), point, light));
   at.holds("a plane through the light does not block it", !blocks(plane_at(10), point, light));
-  at.holds("a sphere through the light does not block it, from either side", !blocks(ball_behind(10), point, light) &&
-                                                 !blocks(scene_of(Sphere{{0, 0, 8}, 2, 0}), {0, 0, 7}, light));
+  at.holds(
+      "a sphere through the light does not block it, from either side",
+      !blocks(ball_behind(10), point, light) && !blocks(scene_of(Sphere{{0, 0, 8}, 2, 0}), {0, 0, 7}, light));
 }
 
 TEST_CASE("a sphere stands before a light on its far side, however small it is") {
@@ -123,8 +123,8 @@ TEST_CASE("on integers a triangle blocks exactly where point and light lie on op
     blocked += expected;
     at += light_side == 0;
   }
-  HardCase("TRI-10").none("triangles within a unit of the segment's end decided unlike 128-bit integers", wrong,
-                          tier_count("rays_per_case"));
+  HardCase("TRI-10").none("triangles within a unit of the segment's end decided unlike 128-bit integers",
+                          wrong, tier_count("rays_per_case"));
   CHECK(blocked > 0);
   CHECK(at > 0);
 }

@@ -26,7 +26,7 @@ double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v
 
 struct Departure {
   std::uint64_t rays = 0, hits = 0, again = 0, below = 0;
-  Worst highest, mean;   // height of an origin above the surface, in units in the last place
+  Worst highest, mean;  // height of an origin above the surface, in units in the last place
 };
 
 // Rays at the body from 3 to 103 sizes away; from each hit, 64 outward rays. `height_above(p)` is the exact
@@ -106,7 +106,8 @@ TEST_CASE("rays that leave an octahedron never meet it again, wherever it is and
       CAPTURE(at);
       CAPTURE(size);
       const glm::dvec3 center(at);
-      add(all, depart(scene_of(octahedron(center, size)), center, size, at + size, [&](const QuadVec& p) -> Quad {
+      add(all,
+          depart(scene_of(octahedron(center, size)), center, size, at + size, [&](const QuadVec& p) -> Quad {
             const QuadVec q = p - quad(center);
             return (magnitude(q.x) + magnitude(q.y) + magnitude(q.z) - size) / square_root(3);
           }));
@@ -184,7 +185,7 @@ TEST_CASE("rays that leave an edge of a convex body start one clearance above it
     const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
     if (!hit.found()) continue;
     const Place place = locate(scene, ray, hit, counts);
-    if (!place.entering) continue;   // of two triangles at one depth the lower number is seen: here a back
+    if (!place.entering) continue;  // of two triangles at one depth the lower number is seen: here a back
     ++starts;
     moved += start_of_leaving(scene, ray, hit, place, counts) != place.point + place.clearance * place.facing;
   }
@@ -199,7 +200,8 @@ TEST_CASE("a start lies on the side from which the ray arrives, also of a surfac
   VisibilityCounts counts;
   // Through x = 0 at a height of 2^-52, and on to y = 0, next to where they cross.
   const Ray ray = make_ray({-0.5, 0.5 + 0x1p-52, 0}, {1, -1, 0});
-  const Hit passed = intersect(scene, 0, ray, kRayStart, counts), hit = intersect(scene, 1, ray, passed, counts);
+  const Hit passed = intersect(scene, 0, ray, kRayStart, counts),
+            hit = intersect(scene, 1, ray, passed, counts);
   REQUIRE(before(passed, hit));
   const Place place = locate(scene, ray, hit, counts);
   const glm::dvec3 from = start_of_leaving(scene, ray, hit, place, counts);

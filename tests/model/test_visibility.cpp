@@ -139,7 +139,8 @@ TEST_CASE("neighbours see the sign of a common edge alike, in every bit") {
     const TriangleView here = view_triangle(o, p, q, r), there = view_triangle(o, q, p, random.in_box(1));
     unlike += here.edge[2] != -there.edge[2] || here.weight[2] != there.weight[2];
   }
-  HardCase("TRI-3").none("common edges that neighbours see unlike in any bit", unlike, tier_count("rays_per_case"));
+  HardCase("TRI-3").none("common edges that neighbours see unlike in any bit", unlike,
+                         tier_count("rays_per_case"));
 }
 
 // A flip (v1 and v2 change places) negates the normal and every sign exactly. A rotation takes the depth from
@@ -220,15 +221,17 @@ TEST_CASE("a ray in the plane of a triangle misses it") {
 }
 
 TEST_CASE("a ray within a face of a cube or along its edge enters through the neighbours") {
-  const Scene cube = scene_of(make_box({1, 1, 1}));   // from -1/2 to 1/2
+  const Scene cube = scene_of(make_box({1, 1, 1}));  // from -1/2 to 1/2
   const HardCase graze("TRI-6");
   graze.holds("a ray in a face of a cube enters and leaves through the neighbours, exactly",
               first_hit(cube, {-2.5, 0.25, 0.5}, {1, 0, 0}).t == 2 &&
                   first_hit(cube, {-2.5, 0.25, 0.5}, {1, 0, 0}, {2, kNone}).t == 3);
-  graze.holds("a ray along an edge of a cube does so too, exactly", first_hit(cube, {-2.5, 0.5, 0.5}, {1, 0, 0}).t == 2 &&
-                                                 first_hit(cube, {-2.5, 0.5, 0.5}, {1, 0, 0}, {2, kNone}).t == 3);
+  graze.holds("a ray along an edge of a cube does so too, exactly",
+              first_hit(cube, {-2.5, 0.5, 0.5}, {1, 0, 0}).t == 2 &&
+                  first_hit(cube, {-2.5, 0.5, 0.5}, {1, 0, 0}, {2, kNone}).t == 3);
   // To the edge x = -1/2, z = 1/2, and on out of the face.
-  graze.holds("a ray that touches an edge of a cube hits it", first_hit(cube, {-1.5, 0.25, -0.5}, {1, 0, 1}).t == 1);
+  graze.holds("a ray that touches an edge of a cube hits it",
+              first_hit(cube, {-1.5, 0.25, -0.5}, {1, 0, 1}).t == 1);
   CHECK_FALSE(first_hit(cube, {-2.5, 0.75, 0.5}, {1, 0, 0}).found());
 }
 

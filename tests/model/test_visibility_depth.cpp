@@ -38,7 +38,8 @@ struct Tally {
 };
 void report(const Tally& tally, const std::string& of) {
   const HardCase accuracy("TRI-7");
-  accuracy.none("hits of " + of + " that exact arithmetic does not find, or misses", tally.missed, tally.rays);
+  accuracy.none("hits of " + of + " that exact arithmetic does not find, or misses", tally.missed,
+                tally.rays);
   accuracy.none("depths of " + of + " beyond their bound", tally.wrong, tally.rays);
 }
 void check_integer_triangle(const std::array<glm::dvec3, 3>& v, const glm::dvec3& origin, Random& random,

@@ -43,7 +43,9 @@ Hit first_hit(const Scene& scene, const Ray& ray, const Hit& after = kRayStart) 
   return intersect(scene, 0, ray, after, counts);
 }
 
-double relative_error(double t, const Quad& exact) { return static_cast<double>(magnitude((t - exact) / exact)); }
+double relative_error(double t, const Quad& exact) {
+  return static_cast<double>(magnitude((t - exact) / exact));
+}
 
 const Sphere kUnit{};  // around the origin
 
@@ -61,7 +63,7 @@ TEST_CASE("a sphere is never missed from up to 1e7 radii, and its depth rounds r
   Random random(9);
   const Scene scene = scene_of(kUnit);
   std::uint64_t missed = 0, missed_in_float = 0, rays = 0;  // the second: from 1e4 radii
-  Worst worst;   // error of t in units of a float's eps, of t
+  Worst worst;                                              // error of t in units of a float's eps, of t
   for (double distance = 10; distance <= 1e7; distance *= 10) {
     for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
       const glm::dvec3 origin = distance * random.direction();
@@ -139,7 +141,7 @@ TEST_CASE("an exact tangent touches once, at its point") {
 // SPH-5
 TEST_CASE("from the centre the sphere is one radius away, whatever the direction's length") {
   Random random(5);
-  Worst worst;   // in eps; d.d: 3 roundings of u, halved by the root; root, q and quotient: 1 u each
+  Worst worst;  // in eps; d.d: 3 roundings of u, halved by the root; root, q and quotient: 1 u each
   for (std::uint64_t left = tier_count("rays_per_case") / 8; left > 0; --left) {
     const double radius = random.log_uniform(1e-3, 1e3);
     const Ray ray{{1, 2, 3}, random.direction()};
@@ -179,7 +181,8 @@ TEST_CASE("from inside, the far side is seen, and the ray's length scales its de
   }
   const HardCase inside("SPH-5");
   inside.none("depths from inside beyond 6 eps (t + r)(1 + r/h)", wrong, tier_count("rays_per_case"));
-  inside.none("depths that do not scale exactly with the ray's length", rescaled, tier_count("rays_per_case"));
+  inside.none("depths that do not scale exactly with the ray's length", rescaled,
+              tier_count("rays_per_case"));
 }
 
 TEST_CASE("a sphere behind the origin is not seen, both sides of one in front are") {

@@ -114,7 +114,7 @@ TEST_CASE("the box of a triangle around, beside or behind the eye holds every sa
 
 TEST_CASE("the box of a huge or far triangle holds every sample that hits it") {
   over_all_cameras([](const Camera& camera, Random& random) {
-    const double size = random.log_uniform(1e6, 9e13);   // 11 of it stay below the 1e15 of a scene
+    const double size = random.log_uniform(1e6, 9e13);  // 11 of it stay below the 1e15 of a scene
     const glm::dvec3 center = camera.eye + random.uniform(0, 10) * size * camera.forward;
     const auto corner = [&] { return center + random.in_box(size); };
     return scene_of_triangle(corner(), corner(), corner());

@@ -53,6 +53,7 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
   const RenderStats& stats = timed.frame.stats;
   nlohmann::ordered_json frame = spread_json(spread_of(frame_ms));
   frame["runs"] = frame_ms.size();
+  const VisibilityCounts& counts = stats.visibility;
   nlohmann::ordered_json json{
       {"renderer", renderer.name},
       {"primary", renderer.name.starts_with("raster") ? "raster" : job.flags.primary},
@@ -76,11 +77,8 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
         {"shadow", stats.rays.shadow},
         {"reflection", stats.rays.reflection},
         {"refraction", stats.rays.refraction}}},
-      {"tests", stats.visibility.tests},
-      {"exact",
-       {{"filtered", stats.visibility.filtered},
-        {"double", stats.visibility.in_double},
-        {"exact", stats.visibility.exact}}},
+      {"tests", counts.tests},
+      {"exact", {{"filtered", counts.filtered}, {"double", counts.in_double}, {"exact", counts.exact}}},
       {"self_shadowed", stats.self_shadowed},
       {"cut_weight", stats.cut_weight},
       {"peak_memory_mb", peak_memory_mb()}};
