@@ -18,7 +18,9 @@
 #include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <limits>
 
 #include "common/model/exact.h"
 
@@ -172,6 +174,21 @@ void cut(Ring& ring, std::size_t i, Triangles& triangles) {
   for (const std::size_t k : {before, after}) ring[k].ear = is_ear(ring, k);
 }
 
+// Taken in the order of the ring, ears would be slivers, side by side from one corner.
+Ring::iterator shortest_ear(Ring& ring) {
+  auto shortest = ring.end();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (!ring[i].ear) continue;
+    const dvec2 across = ring[next(ring, i)].point - ring[previous(ring, i)].point;
+    const double length2 = glm::dot(across, across);
+    if (length2 >= least) continue;
+    least = length2;
+    shortest = ring.begin() + static_cast<std::ptrdiff_t>(i);
+  }
+  return shortest;
+}
+
 // Cuts corners until three are left or none can be cut.
 void clip_ears(Ring& ring, Triangles& triangles) {
   const auto first = [&](auto has) { return std::find_if(ring.begin(), ring.end(), has); };
@@ -180,7 +197,7 @@ void clip_ears(Ring& ring, Triangles& triangles) {
   bool searched = false;  // the whole ring, since the last cut
   while (ring.size() > 3) {
     auto it = first([](const Corner& c) { return c.spike; });
-    if (it == ring.end()) it = first([](const Corner& c) { return c.ear; });
+    if (it == ring.end()) it = shortest_ear(ring);
     if (it == ring.end() && !searched && searches < kSearches) {
       find_ears(ring);
       ++searches;

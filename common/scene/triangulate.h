@@ -11,7 +11,8 @@
 namespace sidelight {
 
 // The triangles of one polygon, as corner numbers into `polygon` (3 or more corners, wound either way): a fan from
-// corner 0 where the polygon is convex, else ear clipping (Meisters 1975), always of the first ear in corner order.
+// corner 0 where the polygon is convex, else ear clipping (Meisters 1975), always of the ear that the shortest cut takes off
+// (the first in corner order of equals): compact triangles are hit for less than slivers.
 // The polygon is judged in the coordinate plane in which its (Newell) normal is greatest. Always returns
 // polygon.size() - 2 triangles, wound as the polygon; where no ear exists (self-intersecting or degenerate input)
 // the remaining corners are fanned. O(n²) at worst, so callers bound n.

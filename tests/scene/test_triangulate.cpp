@@ -7,9 +7,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -99,6 +101,28 @@ TEST_CASE("triangulate: a convex polygon is a fan from corner 0") {
   std::reverse(reversed.begin(), reversed.end());
   CHECK(triangulate(embedded(reversed, kPlaces[1])) == fan);
   CHECK(triangulate(embedded({{0, 0}, {1, 0}, {0, 1}}, kPlaces[0])) == Triangles{{0, 1, 2}});
+}
+
+// As long as no corner is reflex but where a low one stands between two high ones, a round of cuts takes off every other corner
+// or nearly so, and no cut is longer than the two sides that it replaces: all cuts together are below log2(corners) + 1 times
+// the outline. Ears in the order of the ring would fan the wheel out from few corners, by cuts about as long as it is wide.
+TEST_CASE("triangulate: a toothed wheel in compact triangles") {
+  constexpr int kCorners = 128;
+  Polygon wheel;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners, radius = i % 4 < 2 ? 99'000 : 100'000;
+    wheel.push_back({std::llround(radius * std::cos(angle)), std::llround(radius * std::sin(angle))});
+  }
+  const auto length = [&](std::size_t a, std::size_t b) {
+    return std::hypot(static_cast<double>(wheel[a].x - wheel[b].x),
+                      static_cast<double>(wheel[a].y - wheel[b].y));
+  };
+  double outline = 0, edges = 0;
+  for (std::size_t i = 0; i < wheel.size(); ++i) outline += length(i, (i + 1) % wheel.size());
+  for (const auto& t : triangulate(embedded(wheel, kPlaces[0])))
+    for (std::size_t k = 0; k < 3; ++k) edges += length(t[k], t[(k + 1) % 3]);
+  const double cuts = (edges - outline) / 2;  // an edge of the outline is in one triangle, a cut in two
+  CHECK(cuts < (std::log2(kCorners) + 1) * outline);
 }
 
 TEST_CASE("triangulate: corners on an edge never make a T-junction") {
