@@ -2,6 +2,7 @@
 // PNG and EXR to planes of floats and ids, for picture_codec.h. Pixels are read in the file's own types and decoded here,
 // since OpenImageIO treats integers as normalised wherever it converts.
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 
 #include <cstring>
 #include <memory>
@@ -138,7 +139,7 @@ ImageFile read_claimed(const std::string& path, const PictureClaim& claim) {
   read_metadata(spec, image);
   const bool linear = claim.format == PictureFormat::openexr ||
                       spec["sidelight:encoding"].get() == "linear" ||
-                      spec["oiio:ColorSpace"].get() == "Linear";
+                      OIIO::Strutil::iequals(spec["oiio:ColorSpace"].get(), "linear");  // also by a gAMA of 1
   read_channels(*input, spec, linear, path, image);
   require_colors(image, path);
   return image;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <span>
 
@@ -175,6 +177,33 @@ TEST_CASE("PNG of 16 bits is linear, clamped, rounded half up, and read as linea
   CHECK(file.channels.at("B") == std::vector<float>{1, 0, step(16384)});
   CHECK(file.metadata.at("encoding") == "linear");
   CHECK(file.metadata.at("scene") == "x");
+}
+
+// Other programs say so by a gAMA chunk of 1 and no words of ours.
+TEST_CASE("PNG whose gamma is 1 is linear") {
+  const TemporaryFolder folder;
+  Frame frame = make_frame(1, 1, 1, {});
+  frame.color = {{0.25f, 0.5f, 1}};
+  write_png_linear16(folder / "ours.png", frame);
+  std::ifstream ours(folder / "ours.png", std::ios::binary);
+  std::string png(std::istreambuf_iterator<char>(ours), {});
+  const auto byte = [&](std::size_t i) { return std::size_t{static_cast<std::uint8_t>(png[i])}; };
+  bool has_gamma = false;
+  for (std::size_t at = 8; at < png.size();) {  // after the signature: length, name, data, checksum
+    const std::size_t size = 12 + (byte(at) << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3));
+    const std::string name = png.substr(at + 4, 4);
+    has_gamma |= name == "gAMA";
+    if (name == "tEXt" || name == "iTXt" || name == "zTXt")
+      png.erase(at, size);
+    else
+      at += size;
+  }
+  REQUIRE(has_gamma);
+  std::ofstream(folder / "theirs.png", std::ios::binary) << png;
+  const ImageFile file = read_image(folder / "theirs.png");
+  CHECK(file.metadata.empty());
+  CHECK(file.channels.at("R")[0] == static_cast<float>(16384 / 65535.0));
+  CHECK(file.channels.at("G")[0] == static_cast<float>(32768 / 65535.0));
 }
 
 TEST_CASE("PNG of a crop holds the crop") {
