@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "common/scene/toml_set.h"
 #include "common/scene/toml_source.h"
@@ -17,6 +18,21 @@ namespace {
 std::string toml(double value) { return fmt::format("{}", value); }
 std::string toml(bool value) { return value ? "true" : "false"; }
 std::string toml(int value) { return fmt::format("{}", value); }
+std::string toml_key(const std::string& key) {
+  const auto bare = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+  };
+  if (!key.empty() && std::all_of(key.begin(), key.end(), bare)) return key;
+  std::string quoted = "\"";
+  for (const char c : key) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7F)
+      quoted += fmt::format("\\u{:04X}", code);
+    else
+      quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  }
+  return quoted + '"';
+}
 std::string toml(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 std::string toml(const Attenuation& a) { return fmt::format("[{}, {}, {}]", a.q0, a.q1, a.q2); }
 
@@ -80,21 +96,25 @@ toml::node* child(toml::node& node, const std::string& key) {
   return nullptr;
 }
 
-void insert_key(std::string& text, const toml::node& table, bool is_root, const std::string& line,
-                const SourceLocation& nowhere) {
+// Whether keys can be put into the table where it begins: it has a header, or is inline. One of dotted keys has neither.
+bool has_place(const std::string& text, const toml::node& table) {
+  const std::size_t begin = offset_of(text, table.source().begin);
+  return begin < text.size() && (text[begin] == '{' || text[begin] == '[');
+}
+
+void insert_key(std::string& text, const toml::node& table, bool is_root, const std::string& line) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (is_root) {
-    text.insert(0, line + "\n");
+    text.insert(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0, line + "\n");
     return;
   }
   const std::size_t begin = offset_of(text, table.source().begin);
-  if (text.compare(begin, 1, "{") == 0) {
+  if (text[begin] == '{') {
     const std::size_t inside = text.find_first_not_of(" \t", begin + 1);
     text.insert(begin + 1, " " + line + (text.compare(inside, 1, "}") == 0 ? "" : ","));
-  } else if (text.compare(begin, 1, "[") == 0) {
+  } else {
     const std::size_t end = text.find('\n', begin);
     text.insert(end == std::string::npos ? text.size() : end, "\n" + line);
-  } else {
-    throw InputError(nowhere, "no place to write '" + line + "': its table has no header");
   }
 }
 
@@ -103,17 +123,22 @@ std::string with_setting(std::string text, const std::string& key_path, const st
   const SourceLocation nowhere{path, 0, 0};
   toml::table root = scene_file::parse_toml(text, path);
   const std::vector<std::string> keys = scene_file::split_path(key_path, nowhere);
-  toml::node* at = &root;
+  toml::node *at = &root, *home = &root;  // home: the table around `at` that has a place for keys
+  std::string from_home;                  // the dotted keys that lead from there to `at`
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    toml::node* const next = child(*at, keys[i]);
-    if (next) {
+    if (toml::node* const next = child(*at, keys[i])) {
       at = next;
+      from_home += toml_key(keys[i]) + ".";
+      if (has_place(text, *at)) {
+        home = at;
+        from_home.clear();
+      }
       continue;
     }
     const std::string line = keys.back() + " = " + value;
     const bool last = i + 1 == keys.size();
     if (last && at->is_table()) {
-      insert_key(text, *at, at == &root, line, nowhere);
+      insert_key(text, *home, home == &root, from_home + line);
     } else if (i == 0 && keys.size() == 2) {
       text += "\n[" + keys[0] + "]\n" + line + "\n";
     } else {

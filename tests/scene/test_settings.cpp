@@ -90,9 +90,23 @@ TEST_CASE("settings: comments stay, new keys go where their table is, also inlin
   CHECK(out.find("[trace]\n") != std::string::npos);
 }
 
-TEST_CASE("settings: a path that leads nowhere is an error, and so is a table without a place for its keys") {
+TEST_CASE("settings: a path that leads nowhere is an error") {
   CHECK_THROWS_AS(with_settings("", {{"light.3.intensity", "1"}}, "s.toml"), InputError);
   CHECK_THROWS_AS(with_settings("", {{"a..b", "1"}}, "s.toml"), InputError);
-  CHECK_THROWS_AS(with_settings("trace.depth = 3\n", {{"trace.shadows", "true"}}, "s.toml"), InputError);
   CHECK(with_settings("trace.depth = 3\n", {{"trace.depth", "4"}}, "s.toml") == "trace.depth = 4\n");
+}
+
+TEST_CASE("settings: where a table is made of dotted keys, so is the new one") {
+  const auto with = [](const std::string& text, const Settings& settings) {
+    return with_settings(text, settings, "s.toml");
+  };
+  const Settings off{{"trace.shadows", "false"}};
+  CHECK(with("trace.depth = 3\n", off) == "trace.shadows = false\ntrace.depth = 3\n");
+  CHECK(with("\xEF\xBB\xBFtrace.depth = 3\n", off) == "\xEF\xBB\xBFtrace.shadows = false\ntrace.depth = 3\n");
+  CHECK(with("[material]\nglass.ior = 2\n", {{"material.glass.diffuse", "1"}}) ==
+        "[material]\nglass.diffuse = 1\nglass.ior = 2\n");
+  CHECK(with("[material]\n'a b'.ior = 2\n", {{"material.\"a b\".diffuse", "1"}}) ==
+        "[material]\n\"a b\".diffuse = 1\n'a b'.ior = 2\n");
+  CHECK(with("material = { glass.ior = 2 }\n", {{"material.glass.diffuse", "1"}}) ==
+        "material = { glass.diffuse = 1, glass.ior = 2 }\n");
 }
