@@ -135,3 +135,19 @@ TEST_CASE("judge: what is not finished or not timed is on no front") {
   CHECK_FALSE(result.points[1].on_front);
   CHECK_FALSE(result.summaries[0].fastest_exact.has_value());
 }
+
+TEST_CASE("judge: without times nothing is said of equal times") {
+  BenchResult result;
+  result.scenes.resize(1);
+  result.configs = 2;
+  result.points.resize(2);
+  for (BenchPoint& point : result.points) point.finished = true;
+  result.points[0].error.whole.metrics.rms = 0.5;
+  result.points[1].error.whole.metrics.rms = 0.25;
+  result.timed = false;
+  judge(result);
+  REQUIRE(result.summaries[0].standard.has_value());
+  CHECK(result.summaries[0].most_accurate == std::size_t{1});
+  CHECK_FALSE(result.summaries[0].equal_time_error.has_value());
+  CHECK_FALSE(result.summaries[0].equal_error_speedup.has_value());
+}

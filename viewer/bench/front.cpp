@@ -73,7 +73,10 @@ void judge_scene(BenchResult& result, std::size_t scene) {
     if (on[c]) front.push_back(points[c]);
   }
   SceneSummary summary = summarise(points, first, front, result.points[first].finished);
-  if (!result.timed) summary.fastest_exact = {};
+  if (!result.timed) {
+    summary.fastest_exact = {};
+    summary.equal_error_speedup = summary.equal_time_error = {};
+  }
   result.summaries.push_back(summary);
 }
 
