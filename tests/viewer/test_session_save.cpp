@@ -2,7 +2,9 @@
 // What leaves the window: scene files that load to what was shown, commands that tell what the inspector tells.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "tests/viewer/session.h"
 #include "viewer/window/inspection.h"
@@ -99,4 +101,25 @@ TEST_CASE("inspection: rays start where the eye's ends, and the lobe's value is 
     }
   }
   CHECK(lobes > 3);
+}
+
+// All angles from N: in the middle of the picture the lamp is 36.9 degrees from it, Rl as much to the other side, and the eye
+// on the lamp's side; at the left and right the rays leave the plane of N and L.
+TEST_CASE("inspection: the plot of a lobe shows V above the surface") {
+  const Workplace here;
+  write_bytes(
+      here / "scene.toml",
+      "[picture]\nsize = [64, 48]\n[camera]\neye = [4, 1.5, 0]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n"
+      "[[light]]\nposition = [3, 4, 0]\nintensity = 1\n[material.floor]\ndiffuse = 0.5\nspecular = 1\n"
+      "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = 'floor'\n");
+  WindowState state = open_state(here / "scene.toml", open_plain);
+  const Pictures pictures = render_pictures(picture_task(state));
+  for (int x = 2; x < 64; x += 10) {
+    CAPTURE(x);
+    state.inspected = {x, 26};
+    const auto lobe = specular_lobe(*inspect_pixel(state, pictures));
+    REQUIRE(lobe.has_value());
+    const double shown = lobe->light_angle + (lobe->towards_normal ? -1 : 1) * lobe->view_angle;
+    CHECK(std::abs(shown) < std::numbers::pi / 2);
+  }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace sidelight {
 namespace {
@@ -46,6 +47,14 @@ double angle(const glm::dvec3& a, const glm::dvec3& b) {
   return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
 }
 
+// N, Rl and V need not lie in one plane. Turned about Rl into that of N and Rl, V comes to lie on one side of it or the
+// other: on that where it is nearer to its own angle from N, but never under the surface.
+bool shown_towards_normal(double normal_to_mirrored, double mirrored_to_viewer, double normal_to_viewer) {
+  const double away = normal_to_mirrored + mirrored_to_viewer;
+  const double towards = std::abs(normal_to_mirrored - mirrored_to_viewer);
+  return away > std::numbers::pi / 2 || away - normal_to_viewer >= normal_to_viewer - towards;
+}
+
 }  // namespace
 
 std::vector<RaySegment> ray_segments(const Inspection& inspection) {
@@ -69,9 +78,13 @@ std::optional<Lobe> specular_lobe(const Inspection& inspection) {
   const glm::dvec3 normal = surface.normal, viewer = -glm::normalize(root.direction);
   const glm::dvec3 light = to_light(inspection.scene->lights[brightest.light], surface.point);
   const glm::dvec3 mirrored = 2 * glm::dot(normal, light) * normal - light;
-  return Lobe{
-      brightest.light,         inspection.scene->materials[surface.material].shininess, angle(normal, light),
-      angle(mirrored, viewer), glm::dot(viewer, normal) > glm::dot(mirrored, normal),   brightest.highlight};
+  const double light_angle = angle(normal, light), view_angle = angle(mirrored, viewer);
+  return Lobe{brightest.light,
+              inspection.scene->materials[surface.material].shininess,
+              light_angle,
+              view_angle,
+              shown_towards_normal(light_angle, view_angle, angle(normal, viewer)),
+              brightest.highlight};
 }
 
 std::optional<Inspection> inspect_pixel(const WindowState& state, const Pictures& pictures) {

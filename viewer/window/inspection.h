@@ -39,7 +39,7 @@ struct Lobe {
   double shininess = 1;
   double light_angle = 0;       // between N and L, and so between N and Rl
   double view_angle = 0;        // between Rl and V
-  bool towards_normal = false;  // V lies on the normal's side of Rl
+  bool towards_normal = false;  // V, which need not lie in this plane, is shown on the normal's side of Rl
   double value = 0;             // max(0, cos view_angle)^s, as the renderers have it
 };
 // Of the light that shines on the pixel most by its specular term; nothing on the background or in the dark.
