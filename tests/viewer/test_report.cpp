@@ -216,6 +216,21 @@ TEST_CASE("report: of equal pictures says so and leaves out empty terms") {
   CHECK(count(page, "Zero in every pixel") == 3);
 }
 
+TEST_CASE("report: with a fault on purpose it does not say that the account is right in every pixel") {
+  const Workplace here;
+  const Arguments compare{"compare", "good.toml", "-r", "32x24", "--no-times", "-q", "-o"};
+  REQUIRE(here.run(compare + Arguments{"right"}).code == 0);
+  REQUIRE(here.run(compare + Arguments{"wrong", "--tessellate", "8"}).code == 1);
+  const std::string right = read_bytes(here / "right/report.html"),
+                    wrong = read_bytes(here / "wrong/report.html");
+  for (const char* words :
+       {"to the last rounding.</p>", "and this is the ray tracer's picture", "in both renderers, term"}) {
+    CHECK(contains(right, words));
+    CHECK_FALSE(contains(wrong, words));
+  }
+  CHECK(contains(wrong, "pixels that the fault tessellate spoils"));
+}
+
 TEST_CASE("report: pictures of more than four million pixels are embedded reduced") {
   if (test::tier() == "sanitized") return test::skip_test("a large picture, which sanitizers make slow");
   const Workplace here;

@@ -84,8 +84,8 @@ void write_pictures(const Job& job, const std::string& folder, const TimedFrame&
   write_exr(folder + "/raytrace.exr", traced.frame, trace_metadata);
 }
 
-std::string report(const Job& job, const Comparison& result, const TimedFrame& rastered,
-                   const TimedFrame& traced) {
+std::string report(const Job& job, const Comparison& result, const Spoiled& spoiled,
+                   const TimedFrame& rastered, const TimedFrame& traced) {
   const Metrics::Max& max = result.metrics.max;
   CompareReport out{job.scene,
                     rastered.frame,
@@ -95,7 +95,10 @@ std::string report(const Job& job, const Comparison& result, const TimedFrame& r
                     fmt::format("{} --pixel {},{}", command_line(job, "explain"), max.x, max.y),
                     command_line(job, "view") + fault_arguments(job.options.faults),
                     {},
+                    {},
                     {}};
+  for (const FaultCount& each : spoiled.by_fault)
+    out.faults.emplace_back(fault_name(each.fault), each.pixels);
   if (!job.flags.no_times) {
     out.raster_times = times(rastered);
     out.traced_times = times(traced);
@@ -143,7 +146,7 @@ int run_compare(const CompareFlags& flags) {
   const Comparison result = compare(rastered.frame, traced.frame, job.scene.lights.size(), spoiled.mask);
   write_pictures(job, flags.folder, rastered, traced);
   write_text_file(flags.folder + "/compare.json", comparison_json(job, result, spoiled, rastered, traced));
-  write_text_file(flags.folder + "/report.html", report(job, result, rastered, traced));
+  write_text_file(flags.folder + "/report.html", report(job, result, spoiled, rastered, traced));
   if (flags.all_modes) write_all_modes(job, flags.folder + "/modes", rastered.frame, traced.frame);
   if (!flags.job.quiet) print_summary(job, result, spoiled, printable(flags.folder));
   return result.agrees() ? 0 : 1;

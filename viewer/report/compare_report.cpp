@@ -183,8 +183,10 @@ Html rastered_step(const CompareReport& report) {
 // The term, and the sum with it.
 Html term_step(const CompareReport& report, const Term& term, std::span<const glm::vec3> sum) {
   const bool last = term.layer == Layer::refraction;
-  const Html caption = last ? html("<b>{}</b>, and this is the ray tracer's picture.", term.sum)
-                            : html("<b>{}</b>, so far.", term.sum);
+  const Html caption = !last ? html("<b>{}</b>, so far.", term.sum)
+                       : report.result.spoiled > 0
+                           ? html("<b>{}</b>, spoiled as R is.", term.sum)
+                           : html("<b>{}</b>, and this is the ray tracer's picture.", term.sum);
   Html shown = html("<h3>{}, {}</h3>", term.symbol, term.name);
   if (term.cause.pixels == 0)
     shown += html("<p>Zero in every pixel of this picture: nothing changes.</p>");
@@ -199,6 +201,7 @@ Html term_step(const CompareReport& report, const Term& term, std::span<const gl
 Html ledger(const CompareReport& report) {
   std::vector<StepPage> pages{{"R", rastered_step(report)}};
   const auto sums = ledger_sums(report.rastered, report.traced);
+  const std::uint64_t spoiled = report.result.spoiled;
   const std::array<Term, 3> added = terms(report.result);
   for (std::size_t k = 0; k < added.size(); ++k)
     pages.push_back({added[k].symbol, term_step(report, added[k], sums[k + 1])});
@@ -206,9 +209,12 @@ Html ledger(const CompareReport& report) {
 <h2>From the left picture to the right one</h2>
 <p class="formula">traced = R − S + M + G</p>
 <p>The tracer keeps these three terms as it computes them; none is made by subtracting pictures. Added up in linear
-light, they turn the z-buffer's picture into its own, pixel by pixel, to the last rounding.</p>
+light, they turn the z-buffer's picture into its own, pixel by pixel, to the last rounding{}.</p>
 {}</section>
 )",
+              spoiled > 0 ? html(": all but the {} pixels that faults put in on purpose spoil",
+                                 Html{grouped(spoiled)})
+                          : Html{},
               steps_html("ledger", pages));
 }
 
@@ -217,7 +223,7 @@ Html numbers(const CompareReport& report) {
   const Comparison& result = report.result;
   const Metrics& m = result.metrics;
   const auto count = [](std::uint64_t number) { return Html{grouped(number)}; };
-  const Table account{
+  Table account{
       "The account, as in compare.json",
       {},
       {{html("size"), html("{}×{}", result.width, result.height)},
@@ -231,6 +237,8 @@ Html numbers(const CompareReport& report) {
        {html("mean difference"), html("{:.4g}", m.mean)},
        {html("root mean square"), html("{:.4g}", m.rms)},
        {html("PSNR of the 8-bit pictures"), m.psnr ? html("{:.2f} dB", *m.psnr) : html("identical")}}};
+  for (const auto& [name, pixels] : report.faults)
+    account.rows.push_back({html("pixels that the fault {} spoils", name), count(pixels)});
   Table settings{"What was rendered", {}, {}};
   for (const auto& [name, value] : report.settings) {
     std::string words = name;
@@ -256,13 +264,14 @@ Html how_to_go_on(const CompareReport& report) {
                                    : html("The pictures are equal.");
   return html(R"(<section>
 <h2>How to go on</h2>
-<p>{} Why a pixel has its colour, in both renderers, term by term:</p>
+<p>{} Why a pixel has its colour, in both renderers{}, term by term:</p>
 <pre><code>{}</code></pre>
 <p>The same pictures side by side in a window:</p>
 <pre><code>{}</code></pre>
 </section>
 )",
-              where, escaped(report.explain_command, 2000), escaped(report.view_command, 2000));
+              where, report.faults.empty() ? "" : " as they are without faults",
+              escaped(report.explain_command, 2000), escaped(report.view_command, 2000));
 }
 
 }  // namespace
