@@ -55,27 +55,33 @@ bool Faults::has(FaultKind fault) const {
 
 bool Faults::any() const { return *this != Faults{}; }
 
-Faults Faults::only(FaultKind fault) const {
-  Faults one;
+Faults Faults::without(FaultKind fault) const {
+  Faults others = *this;
   switch (fault) {
     case FaultKind::shadow_offset:
-      one.shadow_offset = shadow_offset;
+      others.shadow_offset.reset();
       break;
     case FaultKind::depth_format:
-      one.depth_format = depth_format;
-      one.near_plane = near_plane;
-      one.far_plane = far_plane;
+      others.depth_format.reset();
+      others.near_plane = others.far_plane = 0;
       break;
     case FaultKind::snap_bits:
-      one.snap_bits = snap_bits;
+      others.snap_bits.reset();
       break;
     case FaultKind::tessellate:
-      one.tessellate = tessellate;
+      others.tessellate.reset();
       break;
     case FaultKind::precision:
-      one.float_precision = float_precision;
+      others.float_precision = false;
       break;
   }
+  return others;
+}
+
+Faults Faults::only(FaultKind fault) const {
+  Faults one = *this;
+  for (int i = 0; i < kFaults; ++i)
+    if (const auto other = static_cast<FaultKind>(i); other != fault) one = one.without(other);
   return one;
 }
 

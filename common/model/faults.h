@@ -44,8 +44,9 @@ struct Faults {
 
   bool has(FaultKind fault) const;
   bool any() const;
-  // The same with all other faults off.
+  // The same with all other faults off, and with this one off.
   Faults only(FaultKind fault) const;
+  Faults without(FaultKind fault) const;
   // What is on, with its numbers: "snap-bits 4, precision float". Empty if nothing is.
   std::string text() const;
 

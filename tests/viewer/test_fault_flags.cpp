@@ -57,7 +57,8 @@ TEST_CASE("fault flags: compare counts spoiled pixels apart and exits with 1") {
     CHECK(read_bytes(here / file).find("shadow-offset 0, tessellate 16") != std::string::npos);
 }
 
-// Floats, a million from the eye, make the two pictures name different facets of one ball in one colour.
+// Floats, a million from the eye, make the two pictures name different facets of one ball in one colour. Alone they change
+// nothing, as there is no triangle; still the flakes that they make of the ball are theirs.
 TEST_CASE("fault flags: what two faults spoil together is counted in none of the promises") {
   const Workplace here;
   const Outcome outcome = here.run({"compare", "scenes/hard/far-ball.toml", "-r", "160x120", "-o", "out",
@@ -65,8 +66,12 @@ TEST_CASE("fault flags: what two faults spoil together is counted in none of the
   CHECK(outcome.code == 1);
   const auto json = nlohmann::json::parse(read_bytes(here / "out/compare.json"));
   CHECK(json["faults"]["tessellate"].get<int>() > 0);
+  CHECK(json["faults"]["precision"].get<int>() > 0);
   CHECK(json["unexplained"] == 0);
   CHECK(json["visibility_mismatches"] == 0);
+  REQUIRE(here.run({"compare", "scenes/hard/far-ball.toml", "-r", "160x120", "-o", "alone", "-q",
+                    "--precision", "float"})
+              .code == 0);
 }
 
 TEST_CASE("fault flags: a fault that spoils nothing is named with 0 and exits with 0") {

@@ -8,16 +8,28 @@
 namespace sidelight {
 namespace {
 
+// Both pictures of a scene with some faults.
 struct Pictures {
+  const Scene& scene;
+  const Faults& faults;
+  const Frame &rastered, &traced;
+};
+
+// The same with frames of its own. `faults` must outlive it.
+struct Rendered {
+  Pictures pictures() const { return {scene, faults, rastered, traced}; }
+  const Scene& scene;
+  const Faults& faults;
   Frame rastered, traced;
 };
 
-Pictures render_with(const Job& job, const Faults& faults) {
+Rendered render_with(const Job& job, const Faults& faults) {
   Job other = job;
   other.options.faults = faults;
   other.flags.quiet = true;  // the job's own pictures had the progress bar
-  if (job.untessellated && !faults.tessellate) other.scene = *job.untessellated;
-  return {render_all_layers(other, *find_renderer("raster")).frame,
+  const Scene& scene = job.untessellated && !faults.tessellate ? *job.untessellated : job.scene;
+  if (&scene != &job.scene) other.scene = scene;
+  return {scene, faults, render_all_layers(other, *find_renderer("raster")).frame,
           render_all_layers(other, *find_renderer("raytrace")).frame};
 }
 
@@ -25,41 +37,49 @@ enum Change : char { kSame, kValue, kSurface };
 
 // What is compared of two frames; the scenes tell objects by primitive.
 struct Differs {
-  const Scene &faulty_scene, &exact_scene;
+  const Scene &with_scene, &without_scene;
   bool by_object, depth;
 
   static std::uint32_t object(const Scene& scene, std::uint32_t primitive) {
     return primitive == kNone ? kNone : scene.primitive_object[primitive];
   }
-  Change sample(const Frame& faulty, const Frame& exact, std::size_t s) const {
-    const std::uint32_t a = faulty.sample_primitive[s], b = exact.sample_primitive[s];
-    if (by_object ? object(faulty_scene, a) != object(exact_scene, b) : a != b) return kSurface;
-    return depth && a != kNone && faulty.sample_depth[s] != exact.sample_depth[s] ? kValue : kSame;
+  Change sample(const Frame& with, const Frame& without, std::size_t s) const {
+    const std::uint32_t a = with.sample_primitive[s], b = without.sample_primitive[s];
+    if (by_object ? object(with_scene, a) != object(without_scene, b) : a != b) return kSurface;
+    return depth && a != kNone && with.sample_depth[s] != without.sample_depth[s] ? kValue : kSame;
   }
-  Change samples(const Frame& faulty, const Frame& exact, std::size_t i) const {
+  Change samples(const Frame& with, const Frame& without, std::size_t i) const {
     Change change = kSame;
-    const auto per_pixel = static_cast<std::size_t>(exact.n) * static_cast<std::size_t>(exact.n);
+    const auto per_pixel = static_cast<std::size_t>(with.n) * static_cast<std::size_t>(with.n);
     for (std::size_t s = i * per_pixel; s < (i + 1) * per_pixel; ++s)
-      change = std::max(change, sample(faulty, exact, s));
+      change = std::max(change, sample(with, without, s));
     return change;
   }
-  Change pixel(const Frame& faulty, const Frame& exact, std::size_t i) const {
-    return std::max(faulty.color[i] != exact.color[i] ? kValue : kSame, samples(faulty, exact, i));
+  Change pixel(const Frame& with, const Frame& without, std::size_t i) const {
+    return std::max(with.color[i] != without.color[i] ? kValue : kSame, samples(with, without, i));
   }
 };
 
-std::vector<char> changed_pixels(const Job& job, const Faults& faults, const Frame& rastered,
-                                 const Frame& traced, const Pictures& exact) {
-  const Scene& exact_scene = job.untessellated ? *job.untessellated : job.scene;
-  const Differs differs{faults.tessellate ? job.scene : exact_scene, exact_scene,
-                        faults.tessellate.has_value(), !faults.float_precision};
+// What the faults that only `with` has change.
+std::vector<char> changed_pixels(const Pictures& with, const Pictures& without) {
+  const Differs differs{with.scene, without.scene, with.faults.tessellate != without.faults.tessellate,
+                        with.faults.float_precision == without.faults.float_precision};
   // Facets of one sphere in one colour are no change of either picture; that the two name different ones, is.
-  const Differs apart{job.scene, job.scene, false, true};
-  std::vector<char> mask(rastered.pixels());
-  for (std::size_t i = 0; i < mask.size(); ++i)
-    mask[i] = std::max({differs.pixel(rastered, exact.rastered, i), differs.pixel(traced, exact.traced, i),
-                        apart.samples(rastered, traced, i)});
+  const auto apart = [](const Pictures& of, std::size_t i) {
+    return Differs{of.scene, of.scene, false, true}.samples(of.rastered, of.traced, i);
+  };
+  std::vector<char> mask(with.rastered.pixels());
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const Change newly_apart = apart(without, i) == kSame ? apart(with, i) : kSame;
+    mask[i] = std::max({differs.pixel(with.rastered, without.rastered, i),
+                        differs.pixel(with.traced, without.traced, i), newly_apart});
+  }
   return mask;
+}
+
+// Takes in what another comparison finds changed.
+void add(std::vector<char>& mask, const std::vector<char>& other) {
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = std::max(mask[i], other[i]);
 }
 
 }  // namespace
@@ -68,15 +88,17 @@ Spoiled find_spoiled(const Job& job, const Frame& rastered, const Frame& traced)
   Spoiled spoiled;
   const Faults& faults = job.options.faults;
   if (!faults.any()) return spoiled;
-  const Pictures exact = render_with(job, {});
-  spoiled.mask = changed_pixels(job, faults, rastered, traced, exact);
+  const Faults none{};
+  const Pictures all{job.scene, faults, rastered, traced};
+  const Rendered exact = render_with(job, none);
+  spoiled.mask = changed_pixels(all, exact.pictures());
   for (int i = 0; i < kFaults; ++i) {
     const auto fault = static_cast<FaultKind>(i);
     if (!faults.has(fault)) continue;
     std::vector<char> mask = spoiled.mask;
-    if (const Faults alone = faults.only(fault); alone != faults) {
-      const Pictures pictures = render_with(job, alone);
-      mask = changed_pixels(job, alone, pictures.rastered, pictures.traced, exact);
+    if (const Faults alone = faults.only(fault), others = faults.without(fault); alone != faults) {
+      mask = changed_pixels(render_with(job, alone).pictures(), exact.pictures());
+      add(mask, changed_pixels(all, render_with(job, others).pictures()));
     }
     const auto count = [&](Change change) { return std::count(mask.begin(), mask.end(), change); };
     const auto surfaces = static_cast<std::uint64_t>(count(kSurface));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the faults of a comparison spoil: found by rendering the scene without them, and with each of them alone.
+// What the faults of a comparison spoil: found by rendering the scene without them, and, where they are several, with each of
+// them alone and without each of them: one may need another (float decides triangles, which spheres become by facets).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace sidelight {
 
 struct FaultCount {
   FaultKind fault{};
-  std::uint64_t pixels = 0;         // that this fault, alone, changes
+  std::uint64_t pixels = 0;         // that this fault changes, alone or among the others
   std::uint64_t other_surface = 0;  // those of them in which a sample shows another surface
 };
 
@@ -21,7 +22,7 @@ struct Spoiled {
   std::vector<char> mask;
 };
 
-// At most this many pairs of pictures are alive at once, the job's own, the exact ones, and those of one fault alone.
+// At most this many pairs of pictures are alive at once, the job's own, the exact ones, and those with other faults.
 inline constexpr int kSpoiledPairs = 3;
 
 // `rastered` and `traced`: the job's two pictures, with all layers and samples. A pixel is changed where the primitive
