@@ -202,6 +202,22 @@ TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and t
   CHECK_FALSE(session.watch());
 }
 
+TEST_CASE("session: a mesh file under another name is read once the scene says so") {
+  const std::string text = kGoodScene + "[[mesh]]\nfile = 'a.obj'\nmaterial = 'red'\n";
+  const Open open(text);
+  write_bytes(open.folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  Session session(open_state(open.file, open_small), open_small);
+  std::filesystem::rename(open.folder / "a.obj", open.folder / "b.obj");
+  CHECK_FALSE(session.watch());  // an editor may be about to replace it
+  std::string renamed = text;
+  renamed.replace(renamed.find("a.obj"), 5, "b.obj");
+  save_later(open.file, renamed);
+  CHECK(session.watch());
+  CHECK(session.state().notice.text == "");
+  CHECK(session.state().opened.files.back() == open.folder / "b.obj");
+  CHECK_FALSE(session.watch());
+}
+
 TEST_CASE("session: neighbours in the folder, and their ends") {
   const Open open;
   write_bytes(open.folder / "second.toml", kGoodScene);
@@ -251,6 +267,13 @@ TEST_CASE("session: Escape closes what is open, the window last") {
   CHECK_FALSE(session.state().help);
   session.press("Esc", kPanel);
   CHECK_FALSE(session.state().inspected.has_value());
+  session.press("l", kPanel);
+  session.press("o", kPanel);
+  session.press("Esc", kPanel);
+  CHECK_FALSE(session.state().lesson);
+  CHECK(session.state().slow);
+  session.press("Esc", kPanel);
+  CHECK_FALSE(session.state().slow);
   CHECK_FALSE(session.closed());
   session.press("Esc", kPanel);
   CHECK(session.closed());

@@ -261,6 +261,10 @@ void Session::escape() {
     state_.inspected.reset();
   else if (state_.controls)
     state_.controls = false;
+  else if (state_.lesson)
+    state_.lesson = false;
+  else if (state_.slow)
+    act(Action::slow_motion, {});
   else
     closed_ = true;
 }

@@ -149,8 +149,9 @@ bool Session::watch() {
   const std::vector<std::string> watched = state_.opened.files;
   const std::vector<FileStamp> now = stamps_of(watched);
   const auto gone = [](const FileStamp& stamp) { return stamp.time == FileStamp().time; };
-  if (now == stamps_ || std::any_of(now.begin(), now.end(), gone))
-    return false;  // gone: an editor is about to replace it
+  if (now == stamps_ || gone(now.front())) return false;
+  // Gone: an editor is about to replace it, unless the scene was saved anew and may do without.
+  if (now.front() == stamps_.front() && std::any_of(now.begin(), now.end(), gone)) return false;
   stamps_ = now;
   // The view, the mode and the step stay; the camera too, if the user moved it and the file did not.
   const bool loaded = try_to([&] {
