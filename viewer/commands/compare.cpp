@@ -60,6 +60,7 @@ Times times(const TimedFrame& timed) { return {timed.build_ms, timed.frame_ms}; 
 Labels labels(const Job& job, const TimedFrame& rastered, const TimedFrame& traced) {
   Labels out;
   out.title = job.scene.title.empty() ? job.flags.scene : job.scene.title;
+  out.right.name = traced_name(job.scene.trace);
   if (!job.flags.no_times) {
     out.left.times = times(rastered);
     out.right.times = times(traced);

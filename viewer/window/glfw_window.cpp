@@ -13,6 +13,10 @@ std::string last_glfw_error(const std::string& otherwise) {
   return text != nullptr ? text : otherwise;
 }
 
+std::string title_bar(const std::string& title) {
+  return title.empty() ? "sidelight" : "sidelight: " + printable(title);
+}
+
 }  // namespace
 
 GlfwLibrary::GlfwLibrary() {
@@ -26,12 +30,15 @@ WindowHandle make_window(const std::string& title) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-  const std::string caption = title.empty() ? "sidelight" : "sidelight: " + printable(title);
-  WindowHandle window(glfwCreateWindow(640, 480, caption.c_str(), nullptr, nullptr));
+  WindowHandle window(glfwCreateWindow(640, 480, title_bar(title).c_str(), nullptr, nullptr));
   if (!window) throw NoDisplay(last_glfw_error("no OpenGL 3.3 core context"));
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);
   return window;
+}
+
+void set_title(GLFWwindow* window, const std::string& title) {
+  glfwSetWindowTitle(window, title_bar(title).c_str());
 }
 
 std::string key_name(int key, int modifiers) {

@@ -25,6 +25,7 @@ using WindowHandle = std::unique_ptr<GLFWwindow, DestroyWindow>;
 
 // Not shown yet; its OpenGL context is current. Throws NoDisplay.
 WindowHandle make_window(const std::string& title);
+void set_title(GLFWwindow* window, const std::string& title);
 
 // What keys are called where they do not type a character; empty otherwise. GLFW names keys by their place on an
 // American keyboard, so letters and digits come as characters.

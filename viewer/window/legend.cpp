@@ -29,12 +29,23 @@ ImU32 color_of(const glm::vec3& linear) {
   return IM_COL32(encode_srgb8(linear.x), encode_srgb8(linear.y), encode_srgb8(linear.z), 255);
 }
 
-std::vector<Entry> cause_entries(const Comparison& comparison) {
-  const std::vector<std::string> lines = cause_lines(comparison);
+// The map of causes is white where the terms do not make one picture of the other: where a fault is on that is its doing, and
+// while slow motion has not drawn all objects there is nothing to count.
+std::vector<Entry> cause_entries(const WindowState& state, const std::optional<Comparison>& comparison) {
+  const std::vector<std::string> lines =
+      comparison ? cause_lines(*comparison)
+                 : std::vector<std::string>(kCauseNames.begin(), kCauseNames.end());
   std::vector<Entry> out;
   for (std::size_t i = 0; i < lines.size(); ++i) out.push_back({color_of(kCauseHues[i]), lines[i]});
-  out.push_back({kFrame, fmt::format("other surfaces seen: {}, unexplained: {}",
-                                     comparison.visibility_mismatches, comparison.unexplained)});
+  const ImU32 white = color_of(glm::vec3(1));
+  if (!comparison)
+    out.push_back({white, "no cause: not drawn yet"});
+  else if (state.faults.any())
+    out.push_back(
+        {white, fmt::format("spoiled by faults: {} pixels of the account", comparison->unexplained)});
+  else
+    out.push_back({white, fmt::format("other surfaces seen: {}, unexplained: {}",
+                                      comparison->visibility_mismatches, comparison->unexplained)});
   return out;
 }
 
@@ -75,7 +86,7 @@ int legend_rows(const WindowState& state, int width, double scale) {
 void draw_legend(const Canvas& canvas, const WindowContents& contents, const Rect& box) {
   std::vector<Entry> entries;
   if (contents.state.mode == Mode::causes) {
-    if (contents.finished.comparison) entries = cause_entries(*contents.finished.comparison);
+    if (contents.finished.finished) entries = cause_entries(contents.state, contents.finished.comparison);
   } else if (contents.inspection) {
     entries = ray_entries(*contents.inspection);
   }
@@ -89,7 +100,8 @@ void draw_legend(const Canvas& canvas, const WindowContents& contents, const Rec
     if (at.x > box.x0 && at.x + width > box.x1) at = {box.x0, at.y + line};
     list.AddRectFilled(point(at + glm::dvec2(0, 0.15 * height)), point(at + glm::dvec2(0.8, 0.95) * height),
                        entry.color);
-    list.AddText(&font, font.FontSize, point(at + glm::dvec2(kSwatch * height, 0)), kText, entry.text.c_str());
+    list.AddText(&font, font.FontSize, point(at + glm::dvec2(kSwatch * height, 0)), kText,
+                 entry.text.c_str());
     at.x += width + kGap * height;
   }
 }

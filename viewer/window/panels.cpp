@@ -11,6 +11,17 @@
 
 namespace sidelight {
 
+std::string traced_name(const TraceSettings& trace) {
+  std::string terms;
+  const auto add = [&](bool on, const char* name) {
+    if (on) terms += (terms.empty() ? "" : ", ") + std::string(name);
+  };
+  add(trace.shadows, "shadows");
+  add(trace.reflection, "mirrors");
+  add(trace.refraction, "glass");
+  return "ray tracer: " + (terms.empty() ? "local light only" : terms);
+}
+
 void check_pictures(const Image8& left, const Image8& right) {
   const auto bytes = [](const Image8& image) {
     return 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);

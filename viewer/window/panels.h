@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/picture/image_io.h"
+#include "common/scene/scene.h"
 #include "viewer/window/layout.h"
 #include "viewer/window/view.h"
 
@@ -18,7 +19,7 @@ class Canvas;
 
 struct Times {
   double build_ms = 0, frame_ms = 0;
-  std::string rate = {};   // "3.1 M rays/s"; empty: not said
+  std::string rate = {};  // "3.1 M rays/s"; empty: not said
 };
 
 // Text over one picture. Any text may be given: control characters and broken UTF-8 are shown as \xNN, and
@@ -28,10 +29,13 @@ struct Caption {
   std::optional<Times> times;  // absent: no line of times (--no-times)
 };
 
+// What the tracer's picture holds that a z-buffer's does not: "ray tracer: shadows, mirrors, glass", of these what is on.
+std::string traced_name(const TraceSettings& trace);
+
 struct Labels {
   std::string title;  // of the scene; empty: no title line
   Caption left{"z-buffer: local light only", {}};
-  Caption right{"ray tracer: shadows, mirrors, glass", {}};
+  Caption right{traced_name({}), {}};
 };
 
 // Throws std::invalid_argument, naming both sizes, unless the pictures have one size, of at least 1x1, and as

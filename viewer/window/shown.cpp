@@ -110,6 +110,13 @@ class ShownMaker {
     return out;
   }
 
+  // What is there of the tracer's picture, of which `mode` needs all.
+  ShownPanel waiting(Mode mode) const {
+    ShownPanel out = raytrace();
+    out.caption.name += fmt::format(", then the {}", mode_name(mode));
+    return out;
+  }
+
   bool has(Layer layer) const {
     return has_layer(*pictures_.traced, layer) &&
            (!both_make(layer) || has_layer(*pictures_.rastered, layer));
@@ -152,7 +159,7 @@ class ShownMaker {
   bool full() const { return pictures_.block == 1; }
 
   std::string traced_name() const {
-    if (pictures_.finished) return "ray tracer: shadows, mirrors, glass";
+    if (pictures_.finished) return sidelight::traced_name(pictures_.task.scene->trace);
     if (pictures_.block <= 1) return "ray tracer: refining";
     return fmt::format("ray tracer: blocks of {0}\u00D7{0}", pictures_.block);
   }
@@ -192,17 +199,20 @@ std::vector<ShownPanel> panels(const WindowState& state, const Pictures& latest,
     // Asked for with the mode, not here yet.
     return finished.finished && complete.has(*layer) ? complete.layer(*layer) : std::vector{now.raster()};
   }
+  if (compares(state.mode) && !finished.finished) return {now.waiting(state.mode)};
+  const std::string before = latest.finished ? "" : " (of the view before)";
   switch (state.mode) {
     case Mode::raster:
       return {now.raster()};
     case Mode::raytrace:
       return {now.raytrace()};
     case Mode::difference:
-      return {complete.difference("ray tracer minus z-buffer: yellow is brighter, violet is darker",
-                                  signed_difference(*finished.rastered, *finished.traced))};
+      return {complete.difference(
+          "ray tracer minus z-buffer: yellow brighter, violet darker, grey equal" + before,
+          signed_difference(*finished.rastered, *finished.traced))};
     case Mode::causes:
-      return {
-          complete.difference("what made the difference", cause_map(*finished.rastered, *finished.traced))};
+      return {complete.difference("what made the difference" + before,
+                                  cause_map(*finished.rastered, *finished.traced))};
     case Mode::ledger:
       return ledger(state, finished, complete);
     default:
@@ -214,7 +224,6 @@ std::vector<ShownPanel> panels(const WindowState& state, const Pictures& latest,
 
 Shown show(const WindowState& state, const Pictures& latest, const Pictures& finished) {
   if (!latest.rastered || !latest.traced) return {};
-  if (compares(state.mode) && !finished.finished) return {};
   Shown out;
   out.panels = panels(state, latest, finished);
   if (state.mode == Mode::flip) out.panels.erase(out.panels.begin() + (state.view.flipped ? 0 : 1));

@@ -31,7 +31,8 @@ namespace {
 class SessionWindow {
  public:
   SessionWindow(WindowState state, const SceneOpener& open, FrameLog* log)
-      : window_(make_window(window_title(state))),
+      : title_(window_title(state)),
+        window_(make_window(title_)),
         canvas_(glfwGetProcAddress, content_scale()),
         session_(std::move(state), open, [] { glfwPostEmptyEvent(); }),
         log_(log) {
@@ -200,6 +201,10 @@ class SessionWindow {
     --stale_;
     const glm::ivec2 size = framebuffer_size();
     if (size.x < 1 || size.y < 1) return;  // minimised
+    if (std::string title = window_title(session_.state()); title != title_) {
+      title_ = std::move(title);
+      set_title(window_.get(), title_);
+    }
     if (frames_.draw(size, content_scale())) touch();
     const double drawn = wall_ms();
     glfwSwapBuffers(window_.get());
@@ -213,6 +218,7 @@ class SessionWindow {
   }
 
   GlfwLibrary library_;
+  std::string title_;
   WindowHandle window_;
   Canvas canvas_;
   Session session_;

@@ -138,8 +138,7 @@ WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double sca
     room.x -= width;
   }
   const int margin = pixels(24), line = pixels(2.4 * kSmallText);
-  const int footer =
-      line + pixels(1.8 * kSmallText) * (button_rows(state, room.x - 2 * margin, scale) - 1);
+  const int footer = line + pixels(1.8 * kSmallText) * (button_rows(state, room.x - 2 * margin, scale) - 1);
   int lesson = state.lesson ? pixels(lesson_height(state, room.x - margin, scale)) : 0;
   int inspector = state.inspected ? std::max(pixels(120), size.y * 2 / 5) : 0;
   const int slow = state.slow ? pixels(2.6 * kSmallText) : 0;
@@ -153,7 +152,7 @@ WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double sca
     return head + pictures + legend + slow + inspector + lesson + footer - size.y;
   };
   if (missing() > 0) options.times = false;
-  if (missing() > 0) options.title = false;
+  if (missing() > 0 && !state.faults.any()) options.title = false;  // faults are always said
   if (const int more = missing(); more > 0 && lesson + inspector > 0) {
     const double kept = std::max(0.0, 1 - static_cast<double>(more) / (lesson + inspector));
     lesson = static_cast<int>(kept * lesson);
