@@ -13,6 +13,8 @@ root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
 work="$root/build/planted_faults"
 tree="$work/tree"
 objects="$work/objects"
+sound="$work/sound"         # the objects without any fault
+programs="$work/programs"   # what is judged, while the next fault is built
 scene="$tree/tests/agreement/everything.toml"
 # The test files that hold the checks, beside every header; all others are left out, since they would only cost time.
 tests=(tests/CMakeLists.txt tests/main.cpp tests/tiers.txt tests/support tests/agreement/everything.toml
@@ -41,51 +43,80 @@ copy_source() {
 # Little optimisation: these builds run for a second each.
 configure() {
   cmake -S "$tree" -B "$objects" -G Ninja -D CMAKE_BUILD_TYPE=Planted -D CMAKE_CXX_FLAGS_PLANTED=-O1 \
-    -D SIDELIGHT_TESTS=ON --log-level=NOTICE
+    -D SIDELIGHT_TESTS=ON -D SIDELIGHT_TESTS_OF_PROGRAM=OFF --log-level=NOTICE
 }
 
-# What check $1 runs, and no more.
+# What check $1 runs, and no more, is built and set aside.
 build() {
-  local target=sidelight_tests
-  [[ $1 != compare ]] || target=sidelight
-  cmake --build "$objects" -j "$(nproc)" --target "$target" >"$work/build.log" 2>&1
+  local program
+  program="$(program_of "$1")"
+  cmake --build "$objects" -j "$(nproc)" --target "$(basename -- "$program")" >"$work/build.log" 2>&1 || return
+  finish   # the check before, which runs what was set aside
+  cp -- "$objects/$program" "$programs"
 }
+
+program_of() { if [[ $1 == compare ]]; then echo viewer/sidelight; else echo tests/sidelight_tests; fi; }
 
 # Runs a check; its exit code is 0 where all is well, 1 where a fault was caught, anything else where the check itself
 # broke down.
 check() {
   local code=0
   case $1 in
-    compare) "$objects/viewer/sidelight" compare "$scene" -q -o "$work/out" || code=$? ;;
-    "test "*) "$objects/tests/sidelight_tests" --minimal --test-case="${1#test }" || code=$? ;;
+    compare) "$programs/sidelight" compare "$scene" -q -o "$work/out" || code=$? ;;
+    "test "*) "$programs/sidelight_tests" --minimal --abort-after=1 --test-case="${1#test }" || code=$? ;;
     *) echo "unknown check: $1"; code=2 ;;
   esac >"$work/check.log" 2>&1
   return "$code"
 }
 
-# Replaces text $2 of file $1 by $3; fails unless it stands there exactly once.
+# Replaces text $2 of file $1 by $3, and keeps the whole file beside it; fails unless it stands there exactly once.
 plant() {
   local text rest
   text="$(cat -- "$1" && echo .)"   # the dot keeps the newlines at the end
   rest="${text#*"$2"}"
   [[ $rest != "$text" && $rest != *"$2"* ]] || return 1
-  printf '%s' "${text%.}" >"$1.whole"
+  cp -p -- "$1" "$1.whole"
   text="${text/"$2"/"$3"}"
   printf '%s' "${text%.}" >"$1"
 }
 
-# What becomes of the fault in file $1, text $2, replacement $3, check $4.
-verdict() {
-  local file="$tree/$1" code=0
-  plant "$file" "$2" "$3" || { echo "MISSED: the source text is not there exactly once"; return; }
-  if build "$4"; then check "$4" || code=$?; else code=-1; fi
-  cp -- "$file.whole" "$file" && rm -- "$file.whole"
+# Undoes what was planted in file $1, and what was built since, times included: nothing has to be built anew. The source
+# comes last, since one that differs is what tells the next run that an interrupted one left faulty objects.
+restore() {
+  local file
+  find "$objects" -type f -newer "$work/built" -printf '%P\n' | while IFS= read -r file; do
+    cp -p --remove-destination -- "$sound/$file" "$objects/$file" 2>/dev/null || rm -- "$objects/$file"
+  done
+  mv -- "$1.whole" "$1"
+}
+
+# Plants fault $1 in file $2, text $3, replacement $4, and starts check $5, whose end and verdict `finish` waits for.
+start() {
+  local file="$tree/$2" built=
+  plant "$file" "$3" "$4" || { finish; row "$1" "$5" "MISSED: the source text is not there exactly once"; return; }
+  build "$5" && built=1
+  restore "$file"
+  if [[ $built ]]; then
+    check "$5" &
+    running=("$!" "$1" "$5")
+  else
+    finish
+    row "$1" "$5" "MISSED: does not build: $(grep -m1 error: "$work/build.log")"
+  fi
+}
+
+running=()   # the process of a check, its fault and its name
+finish() {
+  local code=0 verdict
+  ((${#running[@]} > 0)) || return 0
+  wait "${running[0]}" || code=$?
   case $code in
-    1) echo caught ;;
-    0) echo "MISSED: the check saw nothing" ;;
-    -1) echo "MISSED: does not build: $(grep -m1 error: "$work/build.log")" ;;
-    *) echo "MISSED: the check broke down with code $code: $(tail -n 1 "$work/check.log")" ;;
+    1) verdict=caught ;;
+    0) verdict="MISSED: the check saw nothing" ;;
+    *) verdict="MISSED: the check broke down with code $code: $(tail -n 1 "$work/check.log")" ;;
   esac
+  row "${running[1]}" "${running[2]}" "$verdict"
+  running=()
 }
 
 passed=0 failed=0
@@ -104,38 +135,30 @@ split() {
   done
 }
 
-# The list in another order: the faults of one file together, and last the file that is part of most objects. These are
-# compiled anew for each of its faults, and once more when the next file's turn comes.
-by_cost() {
-  local line
-  ninja -C "$objects" -t deps >"$work/deps"
-  while IFS= read -r line; do
-    split "$line"
-    printf '%4d %s|%s\n' "$(grep -cF -e "/${field[1]:-}" "$work/deps")" "${field[1]:-}" "$line"
-  done <"$work/faults" | LC_ALL=C sort -s -t '|' -k 1,1 | cut -d '|' -f 2-
-}
-
-mkdir -p -- "$tree"
+mkdir -p -- "$tree" "$programs"
 copy_source
 configure >"$work/build.log"
 grep -v -e '^#' -e '^$' "$root/tests/planted_faults.txt" | grep -F -e "${1:-}" >"$work/faults"
 
 printf '%-44s %-52s %s\n' fault "to be caught by" verdict
-build all || { tail -n 20 "$work/build.log"; exit 1; }   # the tests, whose build is the program's too
 sed 's/.* | //' "$work/faults" | sort -u >"$work/checks"
+for name in compare test; do
+  build "$name" || { tail -n 20 "$work/build.log"; exit 1; }
+done
+rm -rf -- "$sound" && cp -a -- "$objects" "$sound" && touch -- "$work/built"
 while IFS= read -r name; do
   if check "$name"; then row none "$name" fine; else row none "$name" "FAILED without a fault"; fi
 done <"$work/checks"
 
-by_cost >"$work/in_order"
 while IFS= read -r line; do
   split "$line"
   if ((${#field[@]} == 5)); then
-    row "${field[0]}" "${field[4]}" "$(verdict "${field[@]:1}")"
+    start "${field[@]}"
   else
     row "$line" "" "MISSED: ${#field[@]} fields instead of 5"
   fi
-done <"$work/in_order"
+done <"$work/faults"
+finish
 
 echo "$passed passed, $failed failed"
 ((failed == 0))
