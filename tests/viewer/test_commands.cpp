@@ -229,24 +229,3 @@ TEST_CASE("exit code 5: light beyond what float holds is reported with its pixel
 }
 
 TEST_CASE("exit code 6: no display") { check_refused({"view", "good.toml"}, 6, "display"); }
-
-TEST_CASE("exit code 130: interrupted in the middle of a picture") {
-  const Workplace here;
-  const auto interrupt = [&](const Arguments& verb, int signal) {
-    const Arguments command =
-        Arguments{SIDELIGHT_BINARY} + verb + Arguments{"-r", "2000x1500", "--spp", "16", "-q"};
-    Process process(command, here / ".");
-    process.await_handler(signal);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // by now it renders; any moment must do
-    process.send(signal);
-    const Outcome outcome = process.wait();
-    CHECK(outcome.code == 130);
-    CHECK(outcome.out.empty());
-    CHECK(lines(outcome.err).size() == 1);
-  };
-  interrupt({"render", "good.toml", "-o", "a.exr"}, SIGINT);
-  interrupt({"render", "good.toml", "-o", "a.exr"}, SIGTERM);
-  CHECK(here.made().empty());
-  interrupt({"compare", "good.toml", "-o", "out"}, SIGINT);
-  CHECK(here.names("out").empty());
-}

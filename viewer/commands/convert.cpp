@@ -5,6 +5,7 @@
 #include "common/picture/atomic_file.h"
 #include "common/scene/pov.h"
 #include "viewer/commands/commands.h"
+#include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
 
 namespace sidelight {
@@ -25,7 +26,12 @@ int run_convert(const ConvertFlags& flags) {
     for (const PovLimit& limit : pov_limits(job.scene))
       fmt::print(stderr, "{}: not the same in POV-Ray: {}\n", printable(flags.job.scene, 1000),
                  limit.text);
-  write_text_file(flags.output, [&](const AppendText& append) { write_pov(job.scene, append); });
+  write_text_file(flags.output, [&](const AppendText& append) {
+    write_pov(job.scene, [&](std::string_view text) {
+      stop_if_interrupted();
+      append(text);
+    });
+  });
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include "raytrace/raytrace.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/explain_text.h"
+#include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
 
 namespace sidelight {
@@ -25,6 +26,7 @@ std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel, con
   const auto tracer = raytrace::prepare(job.scene, job.options.threads);
   std::vector<ExplainedSample> out;
   for (const glm::ivec2& sample : samples) {
+    stop_if_interrupted();
     const int X = job.camera.n * pixel.x + sample.x, Y = job.camera.n * pixel.y + sample.y;
     out.push_back({sample.x, sample.y, raster::explain(*rasterizer, job.camera, X, Y),
                    raytrace::explain(*tracer, job.camera, X, Y)});

@@ -146,6 +146,7 @@ Job load_job(const JobFlags& flags, const Settings& set) {
   for (const std::string& each : flags.set) settings.push_back(parse_setting(each));
   job.scene = load_scene_with(flags.scene, settings, &job.files);
   job.load_ms = wall_ms() - start;
+  stop_if_interrupted();
   if (!flags.quiet)
     for (const std::string& warning : job.scene.warnings)
       fmt::print(stderr, "{}\n", printable(warning, 2000));

@@ -60,7 +60,7 @@ struct Job {
 };
 
 // Loads and validates, with values of the file replaced by `set`, then by --set (toml.h: load_scene_with). Prints the
-// scene's warnings to stderr unless quiet. Throws InputError, UsageError.
+// scene's warnings to stderr unless quiet. Throws InputError, UsageError, Interrupted.
 Job load_job(const JobFlags& flags, const Settings& set = {});
 
 // Refuses, before anything is allocated, what the machine's memory cannot hold: an InputError that names the size.
