@@ -85,14 +85,6 @@ std::string findings_text(const PicturePair& pair, const Findings& found, const 
   return text;
 }
 
-void write_json(const std::string& path, const Json& json) {
-  const std::string text = json.dump(2) + "\n";
-  if (path == "-")
-    fmt::print("{}", text);
-  else
-    write_text_file(path, text);
-}
-
 int run_diff(DiffFlags flags) {
   check_flags(flags);
   Picture theirs = read_picture(flags.a);

@@ -12,6 +12,7 @@
 #include "viewer/commands/explain_text.h"
 #include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
+#include "viewer/commands/result_json.h"
 
 namespace sidelight {
 namespace {
@@ -48,11 +49,7 @@ int run_explain(const ExplainFlags& flags) {
   const std::vector<ExplainedSample> explained = explain_pixel(job, pixel, samples);
 
   if (flags.json != "-") fmt::print("{}", explanation_text(job, pixel, explained));
-  const std::string json = explanation_json(job, pixel, explained).dump(2) + "\n";
-  if (flags.json == "-")
-    fmt::print("{}", json);
-  else if (!flags.json.empty())
-    write_text_file(flags.json, json);
+  if (!flags.json.empty()) write_json(flags.json, explanation_json(job, pixel, explained));
   return 0;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "common/picture/metrics.h"
 #include "viewer/bench/result.h"
@@ -12,6 +13,9 @@ namespace sidelight {
 // {max: {value, x, y, channel}, mean, rms, psnr}; channel is "R", "G" or "B", psnr null where the 8-bit pictures are
 // identical.
 nlohmann::ordered_json metrics_json(const Metrics& metrics);
+
+// To the file, whole or not at all, or to standard output for "-". Throws OutputError.
+void write_json(const std::string& path, const nlohmann::ordered_json& json);
 
 // {min, median, max}
 nlohmann::ordered_json spread_json(const Spread& spread);
