@@ -147,6 +147,20 @@ TEST_CASE("exit code 2: layers and formats that do not fit") {
   check_usage(render({"-o", "folder"}), ".png");
 }
 
+TEST_CASE("exit code 2: an empty value, as of a shell's unset variable, is not taken for none") {
+  const Arguments render = Arguments{"render"} + kSmall + Arguments{"-o", "a.png"};
+  for (const char* flag : {"--stats", "-r", "--crop", "--layers", "--isa"})
+    check_usage(render + Arguments{flag, ""}, "wants a value");
+  check_usage(render + Arguments{"--stats="}, "--stats");
+  check_usage({"explain", "good.toml", "--pixel", "1,1", "--json", ""}, "--json");
+  check_usage({"explain", "good.toml", "--pixel", "1,1", "--sample", ""}, "--sample");
+  check_usage({"diff", "a.png", "good.toml", "--json", ""}, "--json");
+  check_usage({"view", "good.toml", "--screenshot", ""}, "--screenshot");
+  check_usage({"bench", "good.toml", "-o", "out", "--sweep", ""}, "--sweep");
+  check_usage({"compare", "good.toml", "-o", ""}, "--output");
+  check_usage({"info", ""}, "SCENE");
+}
+
 TEST_CASE("exit code 3: each mistake in a scene file is one line with its place") {
   const Workplace here;
   REQUIRE(here.run({"info", "good.toml"}).code == 0);

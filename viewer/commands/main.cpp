@@ -42,6 +42,15 @@ struct HelpFormatter : CLI::Formatter {
   }
 };
 
+// A shell's unset variable must not pass for an option that was not given.
+void refuse_empty_values(CLI::App& app) {
+  const auto wants_value = [](const std::string& value) {
+    return value.empty() ? std::string("wants a value; got ''") : std::string();
+  };
+  for (CLI::App* verb : app.get_subcommands({}))
+    for (CLI::Option* option : verb->get_options()) option->check(wants_value);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("sidelight renders one scene by z-buffer and by ray tracing, and accounts for every difference.",
                "sidelight");
@@ -62,6 +71,7 @@ int run(int argc, char** argv) {
   add_bench_command(app, exit_code);
   add_convert_command(app, exit_code);
   add_info_command(app, exit_code);
+  refuse_empty_values(app);
 
   try {
     app.parse(argc, argv);
