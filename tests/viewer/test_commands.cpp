@@ -161,6 +161,13 @@ TEST_CASE("exit code 2: an empty value, as of a shell's unset variable, is not t
   check_usage({"info", ""}, "SCENE");
 }
 
+TEST_CASE("exit code 2: two outputs into one file") {
+  const Arguments render = Arguments{"render"} + kSmall;
+  check_usage(render + Arguments{"-o", "a.png", "--stats", "a.png"}, "two files");
+  check_usage(render + Arguments{"-o", "a.png", "--stats", "./a.png"}, "two files");
+  check_usage({"diff", "a.exr", "b.exr", "-o", "d.png", "--json", "d.png"}, "two files");
+}
+
 TEST_CASE("exit code 3: each mistake in a scene file is one line with its place") {
   const Workplace here;
   REQUIRE(here.run({"info", "good.toml"}).code == 0);

@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <vector>
 
 #include "common/parallel.h"
@@ -103,6 +104,16 @@ glm::ivec2 parse_pixel(const std::string& text, int width, int height, const cha
     throw UsageError(fmt::format("{} wants two numbers x,y from 0,0 to {},{}; got '{}'", flag, width - 1,
                                  height - 1, text));
   return {at[0], at[1]};
+}
+
+void check_apart(const std::string& output, const std::string& other, const char* flag) {
+  namespace fs = std::filesystem;
+  const auto place = [](const std::string& file) {  // whether the file is there or not
+    std::error_code ignored;
+    return fs::weakly_canonical(fs::absolute(file, ignored), ignored);
+  };
+  if (!output.empty() && !other.empty() && place(output) == place(other))
+    throw UsageError(fmt::format("-o and {} want two files; got '{}' and '{}'", flag, output, other));
 }
 
 void add_render_flags(CLI::App& verb, JobFlags& flags) {

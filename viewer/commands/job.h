@@ -48,6 +48,9 @@ glm::ivec2 parse_size(const std::string& text, const char* flag);
 // "x,y" with 0 <= x < width and 0 <= y < height. Throws UsageError, which names the flag.
 glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag);
 
+// Throws UsageError where the file of -o is that of another output, named by its flag. Both may be empty: not asked for.
+void check_apart(const std::string& output, const std::string& other, const char* flag);
+
 // A scene ready to be rendered.
 struct Job {
   JobFlags flags;

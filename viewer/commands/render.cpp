@@ -94,6 +94,7 @@ int run_render(const RenderFlags& flags) {
     throw UsageError("--layers needs an .exr file: a .png holds the colour only");
   if (!png && flags.linear16)
     throw UsageError("--linear16 is for .png files; an .exr is linear float already");
+  check_apart(flags.output, flags.stats, "--stats");
   Job job = load_job(flags.job);
   const Renderer* renderer = &with_primary(job, *find_renderer(flags.renderer));
   check_makes_faults(renderer->name, job.options.faults);
