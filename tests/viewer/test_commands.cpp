@@ -168,6 +168,13 @@ TEST_CASE("exit code 2: two outputs into one file") {
   check_usage({"diff", "a.exr", "b.exr", "-o", "d.png", "--json", "d.png"}, "two files");
 }
 
+TEST_CASE("exit code 2: a screenshot is a .png, and no window with frames to log") {
+  for (const char* name : {"a.jpg", "a", "png"})
+    check_usage({"view", "good.toml", "--screenshot", name}, ".png");
+  check_usage({"view", "good.toml", "--screenshot", "a.png", "--frame-log", "a.csv"}, "--frame-log");
+  check_usage({"view", "good.toml", "--screenshot", "a.png", "--size", "70000x9"}, "from 1 to 16384");
+}
+
 TEST_CASE("exit code 3: each mistake in a scene file is one line with its place") {
   const Workplace here;
   REQUIRE(here.run({"info", "good.toml"}).code == 0);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -89,11 +90,11 @@ void apply_faults(const JobFlags& flags, Job& job) {
 
 }  // namespace
 
-glm::ivec2 parse_size(const std::string& text, const char* flag) {
+glm::ivec2 parse_size(const std::string& text, const char* flag, int longest) {
   const std::vector<int> size = numbers(text, 'x');
-  if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > 65535 || size[1] > 65535)
-    throw UsageError(
-        fmt::format("{0} wants WxH with sides from 1 to 65535, as in {0} 640x480; got '{1}'", flag, text));
+  if (size.size() != 2 || std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > longest)
+    throw UsageError(fmt::format("{0} wants WxH with sides from 1 to {1}, as in {0} 640x480; got '{2}'", flag,
+                                 longest, text));
   return {size[0], size[1]};
 }
 

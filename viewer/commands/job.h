@@ -42,8 +42,8 @@ void add_job_flags(CLI::App& verb, JobFlags& flags);
 void add_render_flags(CLI::App& verb, JobFlags& flags);
 void add_quiet_flag(CLI::App& verb, JobFlags& flags);
 
-// "640x480", sides from 1 to 65535. Throws UsageError, which names the flag.
-glm::ivec2 parse_size(const std::string& text, const char* flag);
+// "640x480", sides from 1 to `longest`. Throws UsageError, which names the flag.
+glm::ivec2 parse_size(const std::string& text, const char* flag, int longest = 65535);
 
 // "x,y" with 0 <= x < width and 0 <= y < height. Throws UsageError, which names the flag.
 glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag);

@@ -56,9 +56,18 @@ WindowState first_state(const ViewFlags& flags, const SceneOpener& open) {
   return session.state();
 }
 
+void check_flags(const ViewFlags& flags) {
+  if (flags.screenshot.empty()) return;
+  if (!flags.screenshot.ends_with(".png"))
+    throw UsageError("--screenshot wants a file that ends in .png; got '" + flags.screenshot + "'");
+  if (!flags.frame_log.empty())
+    throw UsageError("--frame-log is for the window; --screenshot draws one frame only");
+}
+
 int run_view(const ViewFlags& flags) {
+  check_flags(flags);
   if (flags.screenshot.empty()) require_display();   // before any work
-  const glm::ivec2 window = parse_size(flags.window, "--size");
+  const glm::ivec2 window = parse_size(flags.window, "--size", kLongestOffscreen);
   JobFlags opening = flags.job;
   const SceneOpener open = [&opening](const std::string& file, const Settings& set) {
     OpenedScene opened = open_scene(opening, file, set);
