@@ -254,6 +254,22 @@ TEST_CASE("exit code 5: light beyond what float holds is reported with its pixel
     CHECK(outcome.err.find("pixel (") != std::string::npos);
   }
   CHECK_FALSE(std::filesystem::exists(here / "a.png"));
+
+  // Here looking at it is the purpose: it is shown, and the code tells.
+  const auto shown = [&](const Arguments& arguments) {
+    const Outcome outcome = here.run(arguments + Arguments{"-r", "16x12"});
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 5);
+    CHECK(lines(outcome.err).size() == 1);
+    CHECK(outcome.err.find("pixel (") != std::string::npos);
+    return outcome.out;
+  };
+  CHECK(shown({"explain", "bright.toml", "--pixel", "8,6"}).find("z-buffer    (inf") != std::string::npos);
+  CHECK(shown({"explain", "bright.toml", "--pixel", "8,6", "--json", "-"}).find("null") != std::string::npos);
+#ifdef SIDELIGHT_HAVE_OSMESA
+  shown({"view", "bright.toml", "--screenshot", "b.png"});
+  CHECK(std::filesystem::exists(here / "b.png"));
+#endif
 }
 
 TEST_CASE("exit code 6: no display") { check_refused({"view", "good.toml"}, 6, "display"); }

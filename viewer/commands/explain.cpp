@@ -3,6 +3,7 @@
 // (common/model/explanation.h); here it is only put into words, or into JSON.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/picture/frame.h"
@@ -35,6 +36,14 @@ std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel, con
   return out;
 }
 
+void check_finite(const std::vector<ExplainedSample>& samples, glm::ivec2 pixel) {
+  for (const auto& [side, name] : {std::pair{Side::raster, "z-buffer"}, {Side::raytrace, "ray tracer"}}) {
+    const glm::vec3 color = mean_color(samples, side);
+    if (!std::isfinite(color.x) || !std::isfinite(color.y) || !std::isfinite(color.z))
+      throw NumericalFault(fmt::format("{}: colour at pixel ({}, {})", name, pixel.x, pixel.y));
+  }
+}
+
 int run_explain(const ExplainFlags& flags) {
   const Job job = load_job(flags.job);
   const int n = job.camera.n;
@@ -50,6 +59,7 @@ int run_explain(const ExplainFlags& flags) {
 
   if (flags.json != "-") fmt::print("{}", explanation_text(job, pixel, explained));
   if (!flags.json.empty()) write_json(flags.json, explanation_json(job, pixel, explained));
+  check_finite(explained, pixel);
   return 0;
 }
 

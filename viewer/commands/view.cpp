@@ -7,7 +7,7 @@
 #include "common/picture/atomic_file.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/interrupt.h"
-#include "viewer/commands/job.h"
+#include "viewer/commands/renderers.h"
 #include "viewer/window/keys.h"
 #include "viewer/window/offscreen.h"
 #include "viewer/window/window.h"
@@ -87,8 +87,12 @@ int run_view(const ViewFlags& flags) {
     return code;
   }
   const Job job = load_job(opening);   // for the metadata
-  write_png(flags.screenshot, screenshot(state, render_pictures(picture_task(state)), window.x, window.y),
+  const Pictures pictures = render_pictures(picture_task(state));
+  write_png(flags.screenshot, screenshot(state, pictures, window.x, window.y),
             job_metadata(job, "raster, raytrace"));
+  // The window shows such a picture, too; but who asked for one without looking must learn of it.
+  check_finite(*pictures.rastered, "z-buffer");
+  check_finite(*pictures.traced, "ray tracer");
   return 0;
 }
 
