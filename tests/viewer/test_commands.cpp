@@ -105,11 +105,16 @@ TEST_CASE("exit code 2: wrong usage") {
     return Arguments{"render"} + kSmall + Arguments{"-o", "a.png"} + more;
   };
   check_usage({}, "subcommand");
-  check_usage({"paint"}, "subcommand");
+  check_usage({"rendr", "good.toml", "-o", "a.png"}, "no verb 'rendr', only view, compare");
+  check_usage({"rendr", "good.toml", "-o", "a.png"}, "did you mean 'render'?");
   check_usage({"render", "good.toml"}, "--output");
   check_usage({"render", "-o", "a.png"}, "SCENE");
   check_usage({"compare", "good.toml"}, "--output");
   check_usage(render({"--frobnicate"}), "--frobnicate");
+  check_usage(render({"--dept", "3"}), "no '--dept'; did you mean '--depth'?");
+  check_usage(render({"--dept=3"}), "no '--dept'; did you mean '--depth'?");
+  check_usage({"render", "good.toml", "--outptu", "a.png"}, "did you mean '--output'?");
+  check_usage(render({"b.toml", "-Z", "c"}), "not expected: b.toml -Z c");
   check_usage(render({"--spp", "5"}), "square");
   check_usage(render({"--spp", "0"}), "square");
   check_usage(render({"--spp", "8100"}), "4096");
