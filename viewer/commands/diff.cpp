@@ -128,7 +128,10 @@ void add_diff_command(CLI::App& app, int& exit_code) {
   verb->add_option("--fail", tolerance.fail, "a pixel is over if a channel is off by more than this (0)");
   verb->add_option("--failpercent", tolerance.fail_percent, "so many percent of the pixels may be over (0),");
   verb->add_option("--allow", tolerance.allow, "or so many pixels (0), whichever is more,")
-      ->check(CLI::NonNegativeNumber);
+      ->check([](const std::string& text) {
+        const bool whole = text.find_first_not_of("0123456789") == std::string::npos;
+        return whole ? "" : fmt::format("wants a number of pixels, 0 or more; got '{}'", text);
+      });
   verb->add_option("--hardfail", tolerance.hard_fail, "but none by more than this (inf)");
   add_quiet_flag(*verb, flags->job);
   CLI::App* scene_flags = verb->add_option_group("With a scene", "rendered at the size of A");

@@ -50,7 +50,7 @@ int run_explain(const ExplainFlags& flags) {
   const glm::ivec2 pixel = parse_pixel(flags.pixel, job.scene.width, job.scene.height, "--pixel");
   std::vector<glm::ivec2> samples;
   if (!flags.sample.empty()) {
-    samples.push_back(parse_pixel(flags.sample, n, n, "--sample"));
+    samples.push_back(parse_pixel(flags.sample, n, n, "--sample", "i,j"));
   } else {
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) samples.emplace_back(i, j);

@@ -98,12 +98,12 @@ glm::ivec2 parse_size(const std::string& text, const char* flag, int longest) {
   return {size[0], size[1]};
 }
 
-glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag) {
+glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag, const char* names) {
   const std::vector<int> at = numbers(text, ',');
   const bool inside = at.size() == 2 && at[0] >= 0 && at[1] >= 0 && at[0] < width && at[1] < height;
   if (!inside)
-    throw UsageError(fmt::format("{} wants two numbers x,y from 0,0 to {},{}; got '{}'", flag, width - 1,
-                                 height - 1, text));
+    throw UsageError(fmt::format("{} wants two numbers {} from 0,0 to {},{}; got '{}'", flag, names,
+                                 width - 1, height - 1, text));
   return {at[0], at[1]};
 }
 

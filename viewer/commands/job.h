@@ -45,8 +45,9 @@ void add_quiet_flag(CLI::App& verb, JobFlags& flags);
 // "640x480", sides from 1 to `longest`. Throws UsageError, which names the flag.
 glm::ivec2 parse_size(const std::string& text, const char* flag, int longest = 65535);
 
-// "x,y" with 0 <= x < width and 0 <= y < height. Throws UsageError, which names the flag.
-glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag);
+// "x,y" with 0 <= x < width and 0 <= y < height. Throws UsageError, which names the flag and the two numbers.
+glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag,
+                       const char* names = "x,y");
 
 // Throws UsageError where the file of -o is that of another output, named by its flag. Both may be empty: not asked for.
 void check_apart(const std::string& output, const std::string& other, const char* flag);
