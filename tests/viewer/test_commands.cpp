@@ -219,6 +219,11 @@ TEST_CASE("exit code 3: files that are not there or not scenes") {
   check_refused({"info", "no_such.toml"}, 3, "no_such.toml");
   check_refused({"render", "scenes", "-o", "a.png"}, 3, "scenes");
   check_refused({"compare", "/dev/null/x.toml", "-o", "out"}, 3, "/dev/null/x.toml");
+  const Workplace here;
+  std::filesystem::create_symlink("round.toml", here / "round.toml");  // there, but not to be reached
+  const Outcome outcome = here.run({"info", "round.toml"});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.err.find("round.toml: cannot be reached: ") == 0);
 }
 
 TEST_CASE("exit code 3: a size that memory refuses is named") {
