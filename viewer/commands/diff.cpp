@@ -70,13 +70,16 @@ std::string findings_text(const PicturePair& pair, const Findings& found, const 
   text += fmt::format("{}: {} of {} pixels ({:.3g} %) off by more than {:g}",
                       excess.within(tolerance) ? "near enough" : "too far apart", excess.over, excess.pixels,
                       excess.percent_over(), tolerance.fail);
-  if (excess.hard > 0) text += fmt::format(", {} by more than {:g}", excess.hard, tolerance.hard_fail);
+  // What is not finite is over any limit, but has no distance.
+  if (excess.hard > excess.non_finite)
+    text += fmt::format(", {} by more than {:g}", excess.hard - excess.non_finite, tolerance.hard_fail);
+  if (excess.non_finite > 0) text += fmt::format(", {} not finite", excess.non_finite);
   if (found.percent_covered_over)
     text += fmt::format("; {:.3g} % of those with an object", *found.percent_covered_over);
-  text +=
-      fmt::format("\n  greatest {:.4g} at {},{} in {}, mean {:.4g}, rms {:.4g}, psnr {}\n", metrics.max.value,
-                  metrics.max.x, metrics.max.y, "RGB"[metrics.max.channel], metrics.mean, metrics.rms,
-                  metrics.psnr ? fmt::format("{:.2f} dB", *metrics.psnr) : "infinite");
+  text += fmt::format("\n  {}greatest {:.4g} at {},{} in {}, mean {:.4g}, rms {:.4g}, psnr {}\n",
+                      excess.non_finite > 0 ? "of what is finite: " : "", metrics.max.value, metrics.max.x,
+                      metrics.max.y, "RGB"[metrics.max.channel], metrics.mean, metrics.rms,
+                      metrics.psnr ? fmt::format("{:.2f} dB", *metrics.psnr) : "infinite");
   const auto differing = [&](const char* what, const std::optional<std::uint64_t>& pixels) {
     if (pixels) text += fmt::format("  {} differs in {} pixels\n", what, *pixels);
   };
