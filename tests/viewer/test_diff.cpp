@@ -166,10 +166,13 @@ TEST_CASE("diff: a crop is compared in its place, and with a PNG of its size") {
   const Json json = findings(here, "a.exr", "b.exr");
   CHECK(json["over"] == 1);
   CHECK(json["width"] == 6);
+  CHECK(json.at("crop") == Json::array({2, 1, 8, 5}));
   CHECK(json["metrics"]["max"]["x"] == 7);  // of the whole picture
   CHECK(json["metrics"]["max"]["y"] == 3);
   CHECK(diff(here, "a.png", "a.exr") == 0);
   CHECK(findings(here, "a.png", "b.exr")["metrics"]["max"]["x"] == 7);
+  CHECK(findings(here, "a.png", "b.exr").at("crop") == json.at("crop"));
+  CHECK_FALSE(findings(here, "a.png", "a.png").contains("crop"));  // which knows of no whole
 }
 
 TEST_CASE("diff: PNG against EXR as 8-bit codes, PNG against PNG as linear light") {

@@ -46,20 +46,23 @@ Json or_null(const std::optional<T>& value) {
 }
 
 Json findings_json(const PicturePair& pair, const Findings& found) {
-  return {{"a", pair.a.name},
-          {"b", pair.b.name},
-          {"width", pair.window.width()},
-          {"height", pair.window.height()},
-          {"values", pair.coded ? "srgb8" : "linear"},
-          {"metrics", metrics_json(found.metrics)},
-          {"over", found.excess.over},
-          {"percent_over", found.excess.percent_over()},
-          {"percent_covered_over", or_null(found.percent_covered_over)},
-          {"non_finite", found.excess.non_finite},
-          {"differing",
-           {{"object", or_null(found.object_ids)},
-            {"primitive", or_null(found.primitive_ids)},
-            {"depth", or_null(found.depths)}}}};
+  Json json{{"a", pair.a.name},
+            {"b", pair.b.name},
+            {"width", pair.window.width()},
+            {"height", pair.window.height()}};
+  const Picture& placed = pair.a.png ? pair.b : pair.a;
+  add_crop(json, pair.window, placed.full_width, placed.full_height);
+  json.update({{"values", pair.coded ? "srgb8" : "linear"},
+               {"metrics", metrics_json(found.metrics)},
+               {"over", found.excess.over},
+               {"percent_over", found.excess.percent_over()},
+               {"percent_covered_over", or_null(found.percent_covered_over)},
+               {"non_finite", found.excess.non_finite},
+               {"differing",
+                {{"object", or_null(found.object_ids)},
+                 {"primitive", or_null(found.primitive_ids)},
+                 {"depth", or_null(found.depths)}}}});
+  return json;
 }
 
 std::string findings_text(const PicturePair& pair, const Findings& found, const Tolerance& tolerance) {

@@ -9,6 +9,10 @@
 
 namespace sidelight {
 
+void add_crop(nlohmann::ordered_json& json, const Rect& part, int full_width, int full_height) {
+  if (part != Rect{0, 0, full_width, full_height}) json["crop"] = {part.x0, part.y0, part.x1, part.y1};
+}
+
 nlohmann::ordered_json metrics_json(const Metrics& m) {
   constexpr std::array<const char*, 3> kChannels{"R", "G", "B"};
   nlohmann::ordered_json json{{"max",
