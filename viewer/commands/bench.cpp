@@ -36,7 +36,7 @@ std::vector<Config> configs_of(const BenchFlags& flags) {
 // What was asked for, but where it is written to.
 std::string command_of(const BenchFlags& flags) {
   std::string line = "sidelight bench";
-  for (const std::string& scene : flags.scenes) line += ' ' + shell_word(scene);
+  for (const std::string& scene : flags.scenes) line += ' ' + shell_file(scene);
   if (!flags.job.size.empty()) line += " -r " + flags.job.size;
   if (!flags.sweep.empty()) line += " --sweep " + flags.sweep;
   for (const std::string& set : flags.set) line += " --set " + shell_word(set);

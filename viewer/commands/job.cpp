@@ -209,7 +209,7 @@ Metadata job_metadata(const Job& job, const std::string& renderer) {
 
 std::string command_line(const Job& job, std::string_view verb) {
   const JobFlags& flags = job.flags;
-  std::string line = fmt::format("sidelight {} {}", verb, shell_word(flags.scene));
+  std::string line = fmt::format("sidelight {} {}", verb, shell_file(flags.scene));
   if (!flags.size.empty()) line += " -r " + flags.size;
   if (flags.spp != 1) line += fmt::format(" --spp {}", flags.spp);
   if (flags.depth != 0) line += fmt::format(" --depth {}", flags.depth);
