@@ -3,6 +3,8 @@
 #include "common/picture/image_io.h"
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <new>
 
@@ -33,6 +35,28 @@ const PictureCodec& codec() {
   return loaded;
 }
 
+// libpng writes a line of its own about a broken file, whatever error handler it was given. Not while other threads
+// have something to say.
+class MutedStderr {
+ public:
+  MutedStderr() : kept_(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    if (kept_ >= 0) ::dup2(nowhere, STDERR_FILENO);
+    ::close(nowhere);
+  }
+  MutedStderr(const MutedStderr&) = delete;
+  MutedStderr& operator=(const MutedStderr&) = delete;
+  ~MutedStderr() {
+    if (kept_ < 0) return;
+    ::dup2(kept_, STDERR_FILENO);
+    ::close(kept_);
+  }
+
+ private:
+  int kept_;  // -1: there is none, or no number left for it
+};
+
 }  // namespace
 
 void write_png(const std::string& path, const Image8& image, const Metadata& metadata) {
@@ -51,8 +75,10 @@ void write_exr(const std::string& path, const Frame& frame, const Metadata& meta
 
 ImageFile read_image(const std::string& path) {
   const PictureClaim claim = read_claim(path);
+  const PictureCodec& reader = codec();
+  const MutedStderr muted;
   try {
-    return codec().read(path, claim);
+    return reader.read(path, claim);
   } catch (const std::bad_alloc&) {
     reject_file(path, "a picture of " + std::to_string(claim.width) + "x" + std::to_string(claim.height) +
                           " pixels needs more memory than there is");

@@ -111,6 +111,8 @@ void require_colors(ImageFile& image, const std::string& path) {
     image.channels.erase("Y");
   }
   for (const char* color : {"R", "G", "B"}) {
+    if (image.ids.contains(color))
+      reject_file(path, std::string("channel ") + color + " is of type uint; expected float or half");
     if (!image.channels.contains(color))
       reject_file(path, std::string("no channel ") + color + "; expected R, G and B");
   }

@@ -145,7 +145,9 @@ void check(const PictureClaim& claim, std::uint64_t file_bytes, const std::strin
 
 }  // namespace
 
-void reject_file(const std::string& path, const std::string& why) { throw InputError({path, 0, 0}, why); }
+void reject_file(const std::string& path, const std::string& why) {
+  throw InputError({path, 0, 0}, why.substr(0, why.find('\n')));  // libraries add lines that say less
+}
 
 PictureClaim read_claim(const std::string& path) {
   std::error_code error;

@@ -64,12 +64,16 @@ void check_key_lengths(std::string_view text, const std::string& path) {
   }
 }
 
-InputError unreadable(const std::string& path, const char* what) { return InputError({path, 0, 0}, what); }
+InputError unreadable(const std::string& path, const std::string& what) {
+  return InputError({path, 0, 0}, what);
+}
 
 std::ifstream open(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw unreadable(path, "is a folder, expected a file");
-  if (!std::filesystem::exists(path, ignored)) throw unreadable(path, "no such file");
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) throw unreadable(path, "is a folder, expected a file");
+  if (status.type() == std::filesystem::file_type::not_found) throw unreadable(path, "no such file");
+  if (!std::filesystem::exists(status)) throw unreadable(path, "cannot be reached: " + error.message());
   std::ifstream file(path, std::ios::binary);
   if (!file) throw unreadable(path, "cannot be opened, expected a readable file");
   return file;

@@ -14,10 +14,16 @@ namespace {
 
 constexpr std::size_t kNameInMessage = 60;  // bytes of a name that a message shows
 
+// As TOML tells it from a whole number: 2.0, not 2.
+std::string float_text(double x) {
+  const std::string text = number_text(x);
+  return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+}
+
 // What a message calls the node: numbers, flags and names by their value, the rest by its kind.
 std::string found(const toml::node& node) {
   if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
-  if (const auto* number = node.as_floating_point()) return number_text(number->get());
+  if (const auto* number = node.as_floating_point()) return float_text(number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
   if (const auto* text = node.as_string()) return "the text " + in_quotes(text->get());
   if (const auto* array = node.as_array()) return "an array of " + std::to_string(array->size());

@@ -78,7 +78,7 @@ TEST_CASE("toml errors: wrong types") {
          {"picture = 1", "1:11", "expected a table"},
          {"[[trace]]", "1:1", "'trace' is an array of 1, expected a table"},
          {"trace.shadows = 1", "1:17", "'shadows' is 1, expected true or false"},
-         {"trace.depth = 6.0", "1:15", "'depth' is 6, expected a whole number from 1 to 1000"},
+         {"trace.depth = 6.0", "1:15", "'depth' is 6.0, expected a whole number from 1 to 1000"},
          {"[light]", "1:1", "'light' is a table, expected tables, each begun by [[light]]"},
          {"sphere = [1]", "1:11", "'sphere' is 1, expected tables, each begun by [[sphere]]"},
          {"material.glass = 1", "1:18", "'glass' is 1, expected a table"},

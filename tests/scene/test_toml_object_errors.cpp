@@ -50,7 +50,7 @@ TEST_CASE("toml errors: meshes written out") {
          {three + "faces = [" + huge + "]]", "4:10", "'faces' is an array of 10001"},
          {three + "faces = [[0, 1, 3]]", "4:17", "'faces' is 3, expected a whole number from 0 to 2"},
          {three + "faces = [[0, -1, 2]]", "4:14", "'faces' is -1"},
-         {three + "faces = [[0, 1.0, 2]]", "4:14", "'faces' is 1, expected a whole number"}});
+         {three + "faces = [[0, 1.0, 2]]", "4:14", "'faces' is 1.0, expected a whole number"}});
 }
 
 TEST_CASE("toml errors: shapes") {

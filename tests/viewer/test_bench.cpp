@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // sidelight bench as its users meet it: bench.json with the names that others rely on, the same bytes without times, what
 // is left after Ctrl-C.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -108,6 +110,26 @@ TEST_CASE("bench: without times equal runs give equal bytes, from the cache or n
     CHECK_FALSE(point.contains("time_ms"));
   }
   CHECK(text.find("_ms") == std::string::npos);
+}
+
+TEST_CASE("bench: plots of an earlier run do not outlive it, and no plots are said where there are none") {
+  const Workplace here;
+  const Arguments small{"bench", "good.toml", "-r", "16x12", "-o", "out"};
+  const auto said = [&](const Arguments& more) {
+    const Outcome outcome = here.run(small + more);
+    CHECK(outcome.code == 0);
+    const std::vector<std::string> all = lines(outcome.err);
+    return all.empty() ? std::string() : all.back();
+  };
+  const auto plots = [&] {
+    const std::vector<std::string> names = here.names("out");
+    return std::ranges::count_if(names, [](const std::string& name) { return name.ends_with(".svg"); });
+  };
+  CHECK(said({"--set", "samples=1,4"}).ends_with(fmt::format(" and {} plots", plots())));
+  CHECK(plots() > 0);
+  write_bytes(here / "out/other-total.svg", "of another scene");
+  CHECK(said({"--set", "samples=1", "--no-times"}).ends_with(" and 0 plots, which want times"));
+  CHECK(plots() == 1);
 }
 
 TEST_CASE("bench: interrupted, it keeps and marks what was finished") {

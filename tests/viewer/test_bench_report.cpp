@@ -119,10 +119,13 @@ TEST_CASE("bench report: SVG files stand alone and have harmless names") {
     CHECK(count(text, "://") == 1);  // that name alone
   }
   CHECK(names.size() == 12);
-  for (const char* name : {"a-total.svg", "a-2-total.svg", "a-sampling.svg", "-b----n-scene-model.svg"})
+  for (const char* name : {"a-total.svg", "a-2-total.svg", "a-sampling.svg", "b----n-scene-model.svg"})
     CHECK(names.count(name) == 1);
+  result.scenes[2].path = "水.toml";
+  CHECK(bench_plots(result)[8].name == "scene-total.svg");
   result.timed = false;
-  CHECK(bench_plots(result).empty());
+  for (const BenchPlot& plot : bench_plots(result)) CHECK(plot.svg.empty());
+  CHECK(bench_plots(result).size() == 12);  // whose files of an earlier run are out of date
 }
 
 TEST_CASE("bench report: equal arguments give equal bytes") {

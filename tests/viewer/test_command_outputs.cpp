@@ -210,6 +210,10 @@ TEST_CASE("output: compare writes its nine files and the documented keys") {
   const auto equal = nlohmann::ordered_json::parse(read_bytes(here / "local/compare.json"));
   CHECK(equal["metrics"]["psnr"].is_null());  // identical
   CHECK(equal["metrics"]["max"]["value"] == 0);
+
+  REQUIRE(here.run(compare_into("part", {"--crop", "4,2,16,12"})).code == 0);
+  const auto part = nlohmann::ordered_json::parse(read_bytes(here / "part/compare.json"));
+  CHECK(part.at("crop") == nlohmann::ordered_json::array({4, 2, 16, 12}));
 }
 
 TEST_CASE("output: without times two runs write the same bytes") {

@@ -105,11 +105,16 @@ TEST_CASE("exit code 2: wrong usage") {
     return Arguments{"render"} + kSmall + Arguments{"-o", "a.png"} + more;
   };
   check_usage({}, "subcommand");
-  check_usage({"paint"}, "subcommand");
+  check_usage({"rendr", "good.toml", "-o", "a.png"}, "no verb 'rendr', only view, compare");
+  check_usage({"rendr", "good.toml", "-o", "a.png"}, "did you mean 'render'?");
   check_usage({"render", "good.toml"}, "--output");
   check_usage({"render", "-o", "a.png"}, "SCENE");
   check_usage({"compare", "good.toml"}, "--output");
   check_usage(render({"--frobnicate"}), "--frobnicate");
+  check_usage(render({"--dept", "3"}), "no '--dept'; did you mean '--depth'?");
+  check_usage(render({"--dept=3"}), "no '--dept'; did you mean '--depth'?");
+  check_usage({"render", "good.toml", "--outptu", "a.png"}, "did you mean '--output'?");
+  check_usage(render({"b.toml", "-Z", "c"}), "not expected: b.toml -Z c");
   check_usage(render({"--spp", "5"}), "square");
   check_usage(render({"--spp", "0"}), "square");
   check_usage(render({"--spp", "8100"}), "4096");
@@ -147,19 +152,32 @@ TEST_CASE("exit code 2: layers and formats that do not fit") {
   check_usage(render({"-o", "folder"}), ".png");
 }
 
-TEST_CASE("info names the materials of each object, and none of a mesh without faces") {
-  const Workplace here;
-  write_bytes(here / "points.obj", "v 0 0 0\n");
-  write_bytes(here / "two.obj",
-              "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 2 4 3\n");
-  write_bytes(here / "two.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
-  write_bytes(here / "scene.toml",
-              kGoodScene + "[[mesh]]\nfile = 'two.obj'\n[[mesh]]\nfile = 'points.obj'\nmaterial = 'red'\n");
-  const Outcome outcome = here.run({"info", "scene.toml"});
-  CAPTURE(outcome.out);
-  CHECK(outcome.code == 0);
-  CHECK(outcome.out.find("mesh, materials a, b, 2 triangles, open") != std::string::npos);
-  CHECK(outcome.out.find("mesh, no material, 0 triangles, open") != std::string::npos);
+TEST_CASE("exit code 2: an empty value, as of a shell's unset variable, is not taken for none") {
+  const Arguments render = Arguments{"render"} + kSmall + Arguments{"-o", "a.png"};
+  for (const char* flag : {"--stats", "-r", "--crop", "--layers", "--isa"})
+    check_usage(render + Arguments{flag, ""}, "wants a value");
+  check_usage(render + Arguments{"--stats="}, "--stats");
+  check_usage({"explain", "good.toml", "--pixel", "1,1", "--json", ""}, "--json");
+  check_usage({"explain", "good.toml", "--pixel", "1,1", "--sample", ""}, "--sample");
+  check_usage({"diff", "a.png", "good.toml", "--json", ""}, "--json");
+  check_usage({"view", "good.toml", "--screenshot", ""}, "--screenshot");
+  check_usage({"bench", "good.toml", "-o", "out", "--sweep", ""}, "--sweep");
+  check_usage({"compare", "good.toml", "-o", ""}, "--output");
+  check_usage({"info", ""}, "SCENE");
+}
+
+TEST_CASE("exit code 2: two outputs into one file") {
+  const Arguments render = Arguments{"render"} + kSmall;
+  check_usage(render + Arguments{"-o", "a.png", "--stats", "a.png"}, "two files");
+  check_usage(render + Arguments{"-o", "a.png", "--stats", "./a.png"}, "two files");
+  check_usage({"diff", "a.exr", "b.exr", "-o", "d.png", "--json", "d.png"}, "two files");
+}
+
+TEST_CASE("exit code 2: a screenshot is a .png, and no window with frames to log") {
+  for (const char* name : {"a.jpg", "a", "png"})
+    check_usage({"view", "good.toml", "--screenshot", name}, ".png");
+  check_usage({"view", "good.toml", "--screenshot", "a.png", "--frame-log", "a.csv"}, "--frame-log");
+  check_usage({"view", "good.toml", "--screenshot", "a.png", "--size", "70000x9"}, "from 1 to 16384");
 }
 
 TEST_CASE("exit code 3: each mistake in a scene file is one line with its place") {
@@ -201,6 +219,11 @@ TEST_CASE("exit code 3: files that are not there or not scenes") {
   check_refused({"info", "no_such.toml"}, 3, "no_such.toml");
   check_refused({"render", "scenes", "-o", "a.png"}, 3, "scenes");
   check_refused({"compare", "/dev/null/x.toml", "-o", "out"}, 3, "/dev/null/x.toml");
+  const Workplace here;
+  std::filesystem::create_symlink("round.toml", here / "round.toml");  // there, but not to be reached
+  const Outcome outcome = here.run({"info", "round.toml"});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.err.find("round.toml: cannot be reached: ") == 0);
 }
 
 TEST_CASE("exit code 3: a size that memory refuses is named") {
@@ -241,27 +264,22 @@ TEST_CASE("exit code 5: light beyond what float holds is reported with its pixel
     CHECK(outcome.err.find("pixel (") != std::string::npos);
   }
   CHECK_FALSE(std::filesystem::exists(here / "a.png"));
+
+  // Here looking at it is the purpose: it is shown, and the code tells.
+  const auto shown = [&](const Arguments& arguments) {
+    const Outcome outcome = here.run(arguments + Arguments{"-r", "16x12"});
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 5);
+    CHECK(lines(outcome.err).size() == 1);
+    CHECK(outcome.err.find("pixel (") != std::string::npos);
+    return outcome.out;
+  };
+  CHECK(shown({"explain", "bright.toml", "--pixel", "8,6"}).find("z-buffer    (inf") != std::string::npos);
+  CHECK(shown({"explain", "bright.toml", "--pixel", "8,6", "--json", "-"}).find("null") != std::string::npos);
+#ifdef SIDELIGHT_HAVE_OSMESA
+  shown({"view", "bright.toml", "--screenshot", "b.png"});
+  CHECK(std::filesystem::exists(here / "b.png"));
+#endif
 }
 
 TEST_CASE("exit code 6: no display") { check_refused({"view", "good.toml"}, 6, "display"); }
-
-TEST_CASE("exit code 130: interrupted in the middle of a picture") {
-  const Workplace here;
-  const auto interrupt = [&](const Arguments& verb, int signal) {
-    const Arguments command =
-        Arguments{SIDELIGHT_BINARY} + verb + Arguments{"-r", "2000x1500", "--spp", "16", "-q"};
-    Process process(command, here / ".");
-    process.await_handler(signal);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // by now it renders; any moment must do
-    process.send(signal);
-    const Outcome outcome = process.wait();
-    CHECK(outcome.code == 130);
-    CHECK(outcome.out.empty());
-    CHECK(lines(outcome.err).size() == 1);
-  };
-  interrupt({"render", "good.toml", "-o", "a.exr"}, SIGINT);
-  interrupt({"render", "good.toml", "-o", "a.exr"}, SIGTERM);
-  CHECK(here.made().empty());
-  interrupt({"compare", "good.toml", "-o", "out"}, SIGINT);
-  CHECK(here.names("out").empty());
-}

@@ -44,6 +44,8 @@ TEST_CASE("convert: wrong usage, and a place that cannot be written") {
   CHECK(here.run({"convert", "good.toml", "a.png"}).code == 2);
   CHECK(here.run({"convert", "good.toml", "a.pov", "--spp", "4"}).code == 2);
   CHECK(here.run({"convert", "good.toml", "a.pov", "--crop", "0,0,4,4"}).code == 2);
+  const std::string help = here.run({"convert", "--help"}).out;
+  for (const char* flag : {"--spp", "--crop"}) CHECK(help.find(flag) == std::string::npos);
   CHECK(here.run({"convert", "missing.toml", "a.pov"}).code == 3);
   CHECK(here.run({"convert", "good.toml", "missing/a.pov"}).code == 7);
   CHECK(here.made().empty());

@@ -104,6 +104,22 @@ TEST_CASE("diff with a scene: the worst pixels stand apart, with both colours an
   }
 }
 
+TEST_CASE("diff with a scene: how far a worst pixel is off is the distance of the colours beside it") {
+  const Workplace here;
+  for (const char* file : {"theirs.exr", "theirs.png"}) {
+    CAPTURE(file);
+    render(here, "good.toml", {"--no-shadows"}, file);
+    const Json worst = account(here, "good.toml", {}, file)["worst"];
+    REQUIRE(worst.size() == 5);
+    for (const Json& pixel : worst) {
+      double off = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        off = std::max(off, std::abs(pixel["picture"][c].get<double>() - pixel["ours"][c].get<double>()));
+      CHECK(off == doctest::Approx(pixel["off"].get<double>()).epsilon(1e-6));
+    }
+  }
+}
+
 // A scene's name that a shell would take apart.
 TEST_CASE("diff with a scene: the line to type runs, and explains the colour that diff calls ours") {
   const Workplace here;

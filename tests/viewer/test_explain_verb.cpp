@@ -7,6 +7,7 @@
 
 #include "common/picture/image_io.h"
 #include "tests/viewer/program.h"
+#include "viewer/report/shell_word.h"
 
 using namespace sidelight;
 using namespace sidelight::test;
@@ -74,6 +75,15 @@ TEST_CASE("explain: pixels and samples that are none are wrong usage") {
     CHECK(outcome.out.empty());
     CHECK(lines(outcome.err).size() == 1);
   }
-  CHECK(here.run({"explain", "good.toml", "--pixel", "1,2", "--spp", "9", "--sample", "3,0"}).code == 2);
+  const Outcome sample =
+      here.run({"explain", "good.toml", "--pixel", "1,2", "--spp", "9", "--sample", "3,0"});
+  CHECK(sample.code == 2);
+  CHECK(sample.err.find("--sample wants two numbers i,j from 0,0 to 2,2") != std::string::npos);
   CHECK(here.run({"explain", "good.toml", "--pixel", "1,2", "--sample", "0,1"}).code == 2);
+}
+
+TEST_CASE("explain: the line to copy can be typed, whatever the scene is called") {
+  CHECK(shell_file("scenes/a.toml") == "scenes/a.toml");
+  CHECK(shell_file("-a.toml") == "./-a.toml");
+  CHECK(shell_file("-a b.toml") == "'./-a b.toml'");
 }

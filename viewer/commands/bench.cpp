@@ -2,6 +2,7 @@
 // sidelight bench: speed against error, over the knobs of both renderers.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -35,7 +36,7 @@ std::vector<Config> configs_of(const BenchFlags& flags) {
 // What was asked for, but where it is written to.
 std::string command_of(const BenchFlags& flags) {
   std::string line = "sidelight bench";
-  for (const std::string& scene : flags.scenes) line += ' ' + shell_word(scene);
+  for (const std::string& scene : flags.scenes) line += ' ' + shell_file(scene);
   if (!flags.job.size.empty()) line += " -r " + flags.job.size;
   if (!flags.sweep.empty()) line += " --sweep " + flags.sweep;
   for (const std::string& set : flags.set) line += " --set " + shell_word(set);
@@ -69,12 +70,23 @@ BenchResult sweep(const BenchFlags& flags, const std::vector<Config>& configs) {
   return run_sweep(plan);
 }
 
-// The one place where outputs are written.
-void write_outputs(const BenchResult& result, const std::string& folder) {
+// The one place where outputs are written. Gives the number of plots.
+int write_outputs(const BenchResult& result, const std::string& folder) {
   write_text_file(folder + "/bench.json", bench_json(result));
   write_text_file(folder + "/bench.csv", bench_csv(result));
   write_text_file(folder + "/report.html", bench_report(result));
-  for (const auto& [name, svg] : bench_plots(result)) write_text_file(folder + "/" + name, svg);
+  int plots = 0;
+  for (const BenchPlot& plot : bench_plots(result)) {
+    const std::string file = folder + "/" + plot.name;
+    if (!plot.svg.empty()) {
+      write_text_file(file, plot.svg);
+      ++plots;
+      continue;
+    }
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);  // an earlier run's, which would look like this one's
+  }
+  return plots;
 }
 
 int run_bench(const BenchFlags& flags) {
@@ -83,10 +95,11 @@ int run_bench(const BenchFlags& flags) {
   BenchResult result = sweep(flags, configs);
   result.command = command_of(flags);
   judge(result);
-  write_outputs(result, flags.folder);
+  const int plots = write_outputs(result, flags.folder);
   fmt::print("{}", bench_table(result));
   if (!flags.job.quiet)
-    fmt::print(stderr, "wrote {}/report.html, bench.json, bench.csv and plots\n", printable(flags.folder));
+    fmt::print(stderr, "wrote {}/report.html, bench.json, bench.csv and {} plots{}\n",
+               printable(flags.folder), plots, result.timed ? "" : ", which want times");
   if (result.interrupted) throw Interrupted();
   return 0;
 }

@@ -30,18 +30,18 @@ nlohmann::ordered_json cause_json(const Cause& cause) {
 
 std::string comparison_json(const Job& job, const Comparison& result, const Spoiled& spoiled,
                             const TimedFrame& rastered, const TimedFrame& traced) {
-  nlohmann::ordered_json json{{"width", result.width},
-                              {"height", result.height},
-                              {"primary", job.flags.primary},
-                              {"covered", result.covered},
-                              {"visibility_mismatches", result.visibility_mismatches},
-                              {"unexplained", result.unexplained},
-                              {"ledger_max_residual", result.ledger_max_residual},
-                              {"causes",
-                               {{"shadow", cause_json(result.shadow)},
-                                {"reflection", cause_json(result.reflection)},
-                                {"refraction", cause_json(result.refraction)}}},
-                              {"metrics", metrics_json(result.metrics)}};
+  nlohmann::ordered_json json{{"width", result.width}, {"height", result.height}};
+  add_crop(json, traced.frame.window, job.scene.width, job.scene.height);
+  json.update({{"primary", job.flags.primary},
+               {"covered", result.covered},
+               {"visibility_mismatches", result.visibility_mismatches},
+               {"unexplained", result.unexplained},
+               {"ledger_max_residual", result.ledger_max_residual},
+               {"causes",
+                {{"shadow", cause_json(result.shadow)},
+                 {"reflection", cause_json(result.reflection)},
+                 {"refraction", cause_json(result.refraction)}}},
+               {"metrics", metrics_json(result.metrics)}});
   const auto times_json = [](const TimedFrame& t) {
     return nlohmann::ordered_json{{"build", t.build_ms}, {"frame", t.frame_ms}};
   };

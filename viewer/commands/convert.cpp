@@ -5,6 +5,7 @@
 #include "common/picture/atomic_file.h"
 #include "common/scene/pov.h"
 #include "viewer/commands/commands.h"
+#include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
 
 namespace sidelight {
@@ -25,7 +26,12 @@ int run_convert(const ConvertFlags& flags) {
     for (const PovLimit& limit : pov_limits(job.scene))
       fmt::print(stderr, "{}: not the same in POV-Ray: {}\n", printable(flags.job.scene, 1000),
                  limit.text);
-  write_text_file(flags.output, [&](const AppendText& append) { write_pov(job.scene, append); });
+  write_text_file(flags.output, [&](const AppendText& append) {
+    write_pov(job.scene, [&](std::string_view text) {
+      stop_if_interrupted();
+      append(text);
+    });
+  });
   return 0;
 }
 
@@ -35,6 +41,8 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<ConvertFlags>();
   CLI::App* verb = app.add_subcommand("convert", "the same scene for POV-Ray 3.7");
   add_job_flags(*verb, flags->job);
+  for (const char* flag : {"--spp", "--crop"})
+    verb->get_option(flag)->group("");  // refused above, with the reason
   verb->add_option("OUT", flags->output, "FILE.pov; its head says how to render it")->required();
   verb->footer(
       "What POV-Ray cannot express is named on standard error and in the file's head.\n"

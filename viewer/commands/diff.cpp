@@ -33,6 +33,7 @@ void check_flags(const DiffFlags& flags) {
   check("--hardfail", tolerance.hard_fail);
   if (!flags.output.empty() && !flags.output.ends_with(".png"))
     throw UsageError("-o wants a file that ends in .png; got '" + flags.output + "'");
+  check_apart(flags.output, flags.json, "--json");
   if (flags.a.ends_with(".toml"))
     throw UsageError("the first of the two is a picture; got the scene '" + flags.a + "'");
   if (!with_scene(flags) && flags.scene_flags->count_all() > 0)
@@ -45,20 +46,23 @@ Json or_null(const std::optional<T>& value) {
 }
 
 Json findings_json(const PicturePair& pair, const Findings& found) {
-  return {{"a", pair.a.name},
-          {"b", pair.b.name},
-          {"width", pair.window.width()},
-          {"height", pair.window.height()},
-          {"values", pair.coded ? "srgb8" : "linear"},
-          {"metrics", metrics_json(found.metrics)},
-          {"over", found.excess.over},
-          {"percent_over", found.excess.percent_over()},
-          {"percent_covered_over", or_null(found.percent_covered_over)},
-          {"non_finite", found.excess.non_finite},
-          {"differing",
-           {{"object", or_null(found.object_ids)},
-            {"primitive", or_null(found.primitive_ids)},
-            {"depth", or_null(found.depths)}}}};
+  Json json{{"a", pair.a.name},
+            {"b", pair.b.name},
+            {"width", pair.window.width()},
+            {"height", pair.window.height()}};
+  const Picture& placed = pair.a.png ? pair.b : pair.a;
+  add_crop(json, pair.window, placed.full_width, placed.full_height);
+  json.update({{"values", pair.coded ? "srgb8" : "linear"},
+               {"metrics", metrics_json(found.metrics)},
+               {"over", found.excess.over},
+               {"percent_over", found.excess.percent_over()},
+               {"percent_covered_over", or_null(found.percent_covered_over)},
+               {"non_finite", found.excess.non_finite},
+               {"differing",
+                {{"object", or_null(found.object_ids)},
+                 {"primitive", or_null(found.primitive_ids)},
+                 {"depth", or_null(found.depths)}}}});
+  return json;
 }
 
 std::string findings_text(const PicturePair& pair, const Findings& found, const Tolerance& tolerance) {
@@ -69,13 +73,16 @@ std::string findings_text(const PicturePair& pair, const Findings& found, const 
   text += fmt::format("{}: {} of {} pixels ({:.3g} %) off by more than {:g}",
                       excess.within(tolerance) ? "near enough" : "too far apart", excess.over, excess.pixels,
                       excess.percent_over(), tolerance.fail);
-  if (excess.hard > 0) text += fmt::format(", {} by more than {:g}", excess.hard, tolerance.hard_fail);
+  // What is not finite is over any limit, but has no distance.
+  if (excess.hard > excess.non_finite)
+    text += fmt::format(", {} by more than {:g}", excess.hard - excess.non_finite, tolerance.hard_fail);
+  if (excess.non_finite > 0) text += fmt::format(", {} not finite", excess.non_finite);
   if (found.percent_covered_over)
     text += fmt::format("; {:.3g} % of those with an object", *found.percent_covered_over);
-  text +=
-      fmt::format("\n  greatest {:.4g} at {},{} in {}, mean {:.4g}, rms {:.4g}, psnr {}\n", metrics.max.value,
-                  metrics.max.x, metrics.max.y, "RGB"[metrics.max.channel], metrics.mean, metrics.rms,
-                  metrics.psnr ? fmt::format("{:.2f} dB", *metrics.psnr) : "infinite");
+  text += fmt::format("\n  {}greatest {:.4g} at {},{} in {}, mean {:.4g}, rms {:.4g}, psnr {}\n",
+                      excess.non_finite > 0 ? "of what is finite: " : "", metrics.max.value, metrics.max.x,
+                      metrics.max.y, "RGB"[metrics.max.channel], metrics.mean, metrics.rms,
+                      metrics.psnr ? fmt::format("{:.2f} dB", *metrics.psnr) : "infinite");
   const auto differing = [&](const char* what, const std::optional<std::uint64_t>& pixels) {
     if (pixels) text += fmt::format("  {} differs in {} pixels\n", what, *pixels);
   };
@@ -83,14 +90,6 @@ std::string findings_text(const PicturePair& pair, const Findings& found, const 
   differing("primitive id", found.primitive_ids);
   differing("depth", found.depths);
   return text;
-}
-
-void write_json(const std::string& path, const Json& json) {
-  const std::string text = json.dump(2) + "\n";
-  if (path == "-")
-    fmt::print("{}", text);
-  else
-    write_text_file(path, text);
 }
 
 int run_diff(DiffFlags flags) {
@@ -135,7 +134,10 @@ void add_diff_command(CLI::App& app, int& exit_code) {
   verb->add_option("--fail", tolerance.fail, "a pixel is over if a channel is off by more than this (0)");
   verb->add_option("--failpercent", tolerance.fail_percent, "so many percent of the pixels may be over (0),");
   verb->add_option("--allow", tolerance.allow, "or so many pixels (0), whichever is more,")
-      ->check(CLI::NonNegativeNumber);
+      ->check([](const std::string& text) {
+        const bool whole = text.find_first_not_of("0123456789") == std::string::npos;
+        return whole ? "" : fmt::format("wants a number of pixels, 0 or more; got '{}'", text);
+      });
   verb->add_option("--hardfail", tolerance.hard_fail, "but none by more than this (inf)");
   add_quiet_flag(*verb, flags->job);
   CLI::App* scene_flags = verb->add_option_group("With a scene", "rendered at the size of A");

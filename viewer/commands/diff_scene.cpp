@@ -101,8 +101,8 @@ Json worst_json(const WorstPixel& pixel, const OurPictures& ours, const PictureP
   const std::size_t i = pixel.index;
   Json json{{"x", pair.x(i)},
             {"y", pair.y(i)},
-            {"picture", json_triple(pair.a.color[i])},
-            {"ours", json_triple(ours.chosen().color[i])},
+            {"picture", json_triple(pair.value(pair.a.color[i]))},
+            {"ours", json_triple(pair.value(ours.chosen().color[i]))},
             {"off", pair.differences[i]}};
   const std::uint32_t primitive = primitive_at(ours, i);
   for (const char* key : {"primitive", "object", "line", "material"}) json[key] = nullptr;
@@ -129,10 +129,11 @@ std::string worst_text(const WorstPixel& pixel, const OurPictures& ours, const P
     if (terms_present(ours, i) >> t & 1)
       terms += fmt::format("{}{} {}", terms.empty() ? ": " : ", ", kCauseNames[t],
                            triple(ours.traced.layer(kCauseLayers[t])[i]));
-  return fmt::format(
-      "  {},{}: theirs {}, ours {}{}\n    {}{}\n    {}\n", pair.x(i), pair.y(i), triple(pair.a.color[i]),
-      triple(ours.chosen().color[i]), pixel.equals.empty() ? "" : "; theirs equals " + pixel.equals,
-      primitive == kNone ? "background" : primitive_text(ours.job.scene, primitive), terms, pixel.explain);
+  return fmt::format("  {},{}: theirs {}, ours {}{}\n    {}{}\n    {}\n", pair.x(i), pair.y(i),
+                     triple(pair.value(pair.a.color[i])), triple(pair.value(ours.chosen().color[i])),
+                     pixel.equals.empty() ? "" : "; theirs equals " + pixel.equals,
+                     primitive == kNone ? "background" : primitive_text(ours.job.scene, primitive), terms,
+                     pixel.explain);
 }
 
 // Of ours, by its name; nothing where both are equally near.
@@ -211,7 +212,9 @@ std::string account_text(const Account& account, const OurPictures& ours, const 
     text += fmt::format(
         "  {} pixels equal no sum of our terms (what a mirror or glass shows belongs to its term)\n",
         account.without_reason);
-  if (!account.worst.empty()) text += "the worst, and how to see what makes ours:\n";
+  if (!account.worst.empty())
+    text += fmt::format("the worst{}, and how to see what makes ours:\n",
+                        pair.coded ? " (theirs and ours as codes / 255, terms linear)" : "");
   for (const WorstPixel& pixel : account.worst) text += worst_text(pixel, ours, pair);
   return text;
 }

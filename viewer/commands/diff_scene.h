@@ -51,8 +51,8 @@ Account account_for(const OurPictures& ours, const PicturePair& pair, double fai
 std::string account_text(const Account& account, const OurPictures& ours, const PicturePair& pair);
 // {renderer, nearer, rms: {raster, raytrace}, reasons: [{equals, pixels}], without_reason, worst: [{x, y, picture,
 // ours, off, primitive, object, line, material, shadow, reflection, refraction, equals, explain}]}. nearer is null
-// where both are equally near. Colours are linear; off is in the values compared, null where not finite; equals is
-// null where no sum fits.
+// where both are equally near. picture, ours and off are in the values compared (picture_pair.h; the key "values" of the
+// findings), the terms always linear; off is null where not finite, equals where no sum fits.
 nlohmann::ordered_json account_json(const Account& account, const OurPictures& ours, const PicturePair& pair);
 
 }  // namespace sidelight

@@ -3,6 +3,7 @@
 // (common/model/explanation.h); here it is only put into words, or into JSON.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/picture/frame.h"
@@ -10,7 +11,9 @@
 #include "raytrace/raytrace.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/explain_text.h"
+#include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
+#include "viewer/commands/result_json.h"
 
 namespace sidelight {
 namespace {
@@ -25,11 +28,20 @@ std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel, con
   const auto tracer = raytrace::prepare(job.scene, job.options.threads);
   std::vector<ExplainedSample> out;
   for (const glm::ivec2& sample : samples) {
+    stop_if_interrupted();
     const int X = job.camera.n * pixel.x + sample.x, Y = job.camera.n * pixel.y + sample.y;
     out.push_back({sample.x, sample.y, raster::explain(*rasterizer, job.camera, X, Y),
                    raytrace::explain(*tracer, job.camera, X, Y)});
   }
   return out;
+}
+
+void check_finite(const std::vector<ExplainedSample>& samples, glm::ivec2 pixel) {
+  for (const auto& [side, name] : {std::pair{Side::raster, "z-buffer"}, {Side::raytrace, "ray tracer"}}) {
+    const glm::vec3 color = mean_color(samples, side);
+    if (!std::isfinite(color.x) || !std::isfinite(color.y) || !std::isfinite(color.z))
+      throw NumericalFault(fmt::format("{}: colour at pixel ({}, {})", name, pixel.x, pixel.y));
+  }
 }
 
 int run_explain(const ExplainFlags& flags) {
@@ -38,7 +50,7 @@ int run_explain(const ExplainFlags& flags) {
   const glm::ivec2 pixel = parse_pixel(flags.pixel, job.scene.width, job.scene.height, "--pixel");
   std::vector<glm::ivec2> samples;
   if (!flags.sample.empty()) {
-    samples.push_back(parse_pixel(flags.sample, n, n, "--sample"));
+    samples.push_back(parse_pixel(flags.sample, n, n, "--sample", "i,j"));
   } else {
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) samples.emplace_back(i, j);
@@ -46,11 +58,8 @@ int run_explain(const ExplainFlags& flags) {
   const std::vector<ExplainedSample> explained = explain_pixel(job, pixel, samples);
 
   if (flags.json != "-") fmt::print("{}", explanation_text(job, pixel, explained));
-  const std::string json = explanation_json(job, pixel, explained).dump(2) + "\n";
-  if (flags.json == "-")
-    fmt::print("{}", json);
-  else if (!flags.json.empty())
-    write_text_file(flags.json, json);
+  if (!flags.json.empty()) write_json(flags.json, explanation_json(job, pixel, explained));
+  check_finite(explained, pixel);
   return 0;
 }
 

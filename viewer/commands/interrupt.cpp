@@ -6,6 +6,8 @@
 
 #include <csignal>
 
+#include "common/error.h"
+
 namespace sidelight {
 namespace {
 
@@ -20,6 +22,10 @@ void on_signal(int signal) {
 }  // namespace
 
 std::atomic<bool>& interrupt_flag() { return raised; }
+
+void stop_if_interrupted() {
+  if (raised) throw Interrupted();
+}
 
 void restore_default_signals() {
   std::signal(SIGINT, SIG_DFL);

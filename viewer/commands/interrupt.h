@@ -9,6 +9,8 @@
 namespace sidelight {
 
 std::atomic<bool>& interrupt_flag();
+// Throws Interrupted once the flag is raised: for verbs whose work is not a renderer's.
+void stop_if_interrupted();
 
 // From here on Ctrl-C ends the process at once: for the window, which sleeps until the next event.
 void restore_default_signals();

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <vector>
 
 #include "common/parallel.h"
@@ -88,21 +90,31 @@ void apply_faults(const JobFlags& flags, Job& job) {
 
 }  // namespace
 
-glm::ivec2 parse_size(const std::string& text, const char* flag) {
+glm::ivec2 parse_size(const std::string& text, const char* flag, int longest) {
   const std::vector<int> size = numbers(text, 'x');
-  if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > 65535 || size[1] > 65535)
-    throw UsageError(
-        fmt::format("{0} wants WxH with sides from 1 to 65535, as in {0} 640x480; got '{1}'", flag, text));
+  if (size.size() != 2 || std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > longest)
+    throw UsageError(fmt::format("{0} wants WxH with sides from 1 to {1}, as in {0} 640x480; got '{2}'", flag,
+                                 longest, text));
   return {size[0], size[1]};
 }
 
-glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag) {
+glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag, const char* names) {
   const std::vector<int> at = numbers(text, ',');
   const bool inside = at.size() == 2 && at[0] >= 0 && at[1] >= 0 && at[0] < width && at[1] < height;
   if (!inside)
-    throw UsageError(fmt::format("{} wants two numbers x,y from 0,0 to {},{}; got '{}'", flag, width - 1,
-                                 height - 1, text));
+    throw UsageError(fmt::format("{} wants two numbers {} from 0,0 to {},{}; got '{}'", flag, names,
+                                 width - 1, height - 1, text));
   return {at[0], at[1]};
+}
+
+void check_apart(const std::string& output, const std::string& other, const char* flag) {
+  namespace fs = std::filesystem;
+  const auto place = [](const std::string& file) {  // whether the file is there or not
+    std::error_code ignored;
+    return fs::weakly_canonical(fs::absolute(file, ignored), ignored);
+  };
+  if (!output.empty() && !other.empty() && place(output) == place(other))
+    throw UsageError(fmt::format("-o and {} want two files; got '{}' and '{}'", flag, output, other));
 }
 
 void add_render_flags(CLI::App& verb, JobFlags& flags) {
@@ -146,6 +158,7 @@ Job load_job(const JobFlags& flags, const Settings& set) {
   for (const std::string& each : flags.set) settings.push_back(parse_setting(each));
   job.scene = load_scene_with(flags.scene, settings, &job.files);
   job.load_ms = wall_ms() - start;
+  stop_if_interrupted();
   if (!flags.quiet)
     for (const std::string& warning : job.scene.warnings)
       fmt::print(stderr, "{}\n", printable(warning, 2000));
@@ -196,7 +209,7 @@ Metadata job_metadata(const Job& job, const std::string& renderer) {
 
 std::string command_line(const Job& job, std::string_view verb) {
   const JobFlags& flags = job.flags;
-  std::string line = fmt::format("sidelight {} {}", verb, shell_word(flags.scene));
+  std::string line = fmt::format("sidelight {} {}", verb, shell_file(flags.scene));
   if (!flags.size.empty()) line += " -r " + flags.size;
   if (flags.spp != 1) line += fmt::format(" --spp {}", flags.spp);
   if (flags.depth != 0) line += fmt::format(" --depth {}", flags.depth);

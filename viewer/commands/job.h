@@ -42,11 +42,15 @@ void add_job_flags(CLI::App& verb, JobFlags& flags);
 void add_render_flags(CLI::App& verb, JobFlags& flags);
 void add_quiet_flag(CLI::App& verb, JobFlags& flags);
 
-// "640x480", sides from 1 to 65535. Throws UsageError, which names the flag.
-glm::ivec2 parse_size(const std::string& text, const char* flag);
+// "640x480", sides from 1 to `longest`. Throws UsageError, which names the flag.
+glm::ivec2 parse_size(const std::string& text, const char* flag, int longest = 65535);
 
-// "x,y" with 0 <= x < width and 0 <= y < height. Throws UsageError, which names the flag.
-glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag);
+// "x,y" with 0 <= x < width and 0 <= y < height. Throws UsageError, which names the flag and the two numbers.
+glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag,
+                       const char* names = "x,y");
+
+// Throws UsageError where the file of -o is that of another output, named by its flag. Both may be empty: not asked for.
+void check_apart(const std::string& output, const std::string& other, const char* flag);
 
 // A scene ready to be rendered.
 struct Job {
@@ -60,7 +64,7 @@ struct Job {
 };
 
 // Loads and validates, with values of the file replaced by `set`, then by --set (toml.h: load_scene_with). Prints the
-// scene's warnings to stderr unless quiet. Throws InputError, UsageError.
+// scene's warnings to stderr unless quiet. Throws InputError, UsageError, Interrupted.
 Job load_job(const JobFlags& flags, const Settings& set = {});
 
 // Refuses, before anything is allocated, what the machine's memory cannot hold: an InputError that names the size.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <system_error>
 
 #include "common/error.h"
+#include "common/scene/nearest_name.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/interrupt.h"
 #include "viewer/window/window.h"
@@ -42,6 +44,42 @@ struct HelpFormatter : CLI::Formatter {
   }
 };
 
+// A shell's unset variable must not pass for an option that was not given.
+void refuse_empty_values(CLI::App& app) {
+  const auto wants_value = [](const std::string& value) {
+    return value.empty() ? std::string("wants a value; got ''") : std::string();
+  };
+  for (CLI::App* verb : app.get_subcommands({}))
+    for (CLI::Option* option : verb->get_options()) option->check(wants_value);
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
+  const std::vector<std::string_view> views(known.begin(), known.end());
+  return fmt::format("did you mean '{}'?", nearest_name(name, views));
+}
+
+// CLI11 would only say that a verb is wanted.
+void check_verb(const CLI::App& app, const std::string& given) {
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (given.starts_with('-') || std::ranges::find(verbs, given) != verbs.end()) return;
+  throw UsageError(fmt::format("there is no verb '{}', only {}; {}", given, fmt::join(verbs, ", "),
+                               did_you_mean(given, verbs)));
+}
+
+// What a verb could not make sense of, beginning with the flag that it does not know: "--dept 3".
+std::string unexpected(const CLI::App& verb) {
+  const std::vector<std::string> words = verb.remaining();
+  const auto flag =
+      std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("--"); });
+  if (flag == words.end()) return fmt::format("{}: not expected: {}", verb.get_name(), fmt::join(words, " "));
+  const std::string name = flag->substr(0, flag->find('='));
+  std::vector<std::string> known;
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& each : option->get_lnames()) known.push_back("--" + each);
+  return fmt::format("{}: there is no '{}'; {}", verb.get_name(), name, did_you_mean(name, known));
+}
+
 int run(int argc, char** argv) {
   CLI::App app("sidelight renders one scene by z-buffer and by ray tracing, and accounts for every difference.",
                "sidelight");
@@ -62,14 +100,20 @@ int run(int argc, char** argv) {
   add_bench_command(app, exit_code);
   add_convert_command(app, exit_code);
   add_info_command(app, exit_code);
+  refuse_empty_values(app);
 
   try {
+    if (argc > 1) check_verb(app, argv[1]);
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw OutputError("standard output: cannot write");
     return exit_code;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);   // --help, --version
-    return complain(kUsage, fmt::format("{} (sidelight --help shows how)", printable(error.what(), 300)));
+    const std::vector<CLI::App*> verb = app.get_subcommands();
+    const bool extra = !verb.empty() && !verb[0]->remaining().empty();
+    const std::string what = extra ? unexpected(*verb[0]) : error.what();
+    return complain(kUsage, fmt::format("{} (sidelight {}--help shows how)", printable(what, 300),
+                                        verb.empty() ? "" : verb[0]->get_name() + " "));
   } catch (const UsageError& error) {
     return complain(kUsage, error.what());
   } catch (const InputError& error) {

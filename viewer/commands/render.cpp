@@ -48,8 +48,8 @@ LayerMask parse_layers(const RenderFlags& flags, const Renderer& renderer) {
   return mask;
 }
 
-std::string stats_json(const Job& job, const Renderer& renderer, const TimedFrame& timed,
-                       const std::vector<double>& frame_ms, const std::vector<double>& cpu) {
+nlohmann::ordered_json stats_json(const Job& job, const Renderer& renderer, const TimedFrame& timed,
+                                  const std::vector<double>& frame_ms, const std::vector<double>& cpu) {
   const RenderStats& stats = timed.frame.stats;
   nlohmann::ordered_json frame = spread_json(spread_of(frame_ms));
   frame["runs"] = frame_ms.size();
@@ -84,7 +84,7 @@ std::string stats_json(const Job& job, const Renderer& renderer, const TimedFram
       {"peak_memory_mb", peak_memory_mb()}};
   for (const StageTime& stage : stats.stages) json["stages_ms"][std::string(stage.name)] = stage.ms;
   if (job.options.faults.any()) json["faults"] = job.options.faults.text();
-  return json.dump(2) + "\n";
+  return json;
 }
 
 int run_render(const RenderFlags& flags) {
@@ -94,6 +94,7 @@ int run_render(const RenderFlags& flags) {
     throw UsageError("--layers needs an .exr file: a .png holds the colour only");
   if (!png && flags.linear16)
     throw UsageError("--linear16 is for .png files; an .exr is linear float already");
+  check_apart(flags.output, flags.stats, "--stats");
   Job job = load_job(flags.job);
   const Renderer* renderer = &with_primary(job, *find_renderer(flags.renderer));
   check_makes_faults(renderer->name, job.options.faults);
@@ -123,13 +124,7 @@ int run_render(const RenderFlags& flags) {
     write_png(flags.output, to_image8(timed.frame.color, timed.frame.width(), timed.frame.height()),
               metadata);
 
-  if (!flags.stats.empty()) {
-    const std::string json = stats_json(job, *renderer, timed, frame_ms, cpu);
-    if (flags.stats == "-")
-      fmt::print("{}", json);
-    else
-      write_text_file(flags.stats, json);
-  }
+  if (!flags.stats.empty()) write_json(flags.stats, stats_json(job, *renderer, timed, frame_ms, cpu));
   return 0;
 }
 

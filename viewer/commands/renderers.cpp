@@ -113,6 +113,11 @@ const Renderer* find_renderer(std::string_view name) {
   return at == kRenderers.end() ? nullptr : &*at;
 }
 
+void check_finite(const Frame& frame, std::string_view label) {
+  if (const std::string fault = first_non_finite(frame); !fault.empty())
+    throw NumericalFault(fmt::format("{}: {}", label, fault));
+}
+
 TimedFrame render_all_layers(const Job& job, const Renderer& renderer) {
   constexpr LayerMask kCost = layer_bit(Layer::cost);
   RenderOptions options = job.options;
@@ -120,8 +125,7 @@ TimedFrame render_all_layers(const Job& job, const Renderer& renderer) {
   ProgressBar bar(std::string(renderer.label), job.flags.quiet);
   options.progress = bar.callback();
   TimedFrame timed = renderer.render(job, job.camera, options);
-  if (const std::string fault = first_non_finite(timed.frame); !fault.empty())
-    throw NumericalFault(fmt::format("{}: {}", renderer.label, fault));
+  check_finite(timed.frame, renderer.label);
   if ((renderer.layers & kCost) == 0) return timed;
   // What a pixel costs is counted by the renderers' readable paths: apart, so that times are those of the fast ones.
   options.layers = kCost;

@@ -33,6 +33,9 @@ extern const Renderer kRaytraceFromRaster;
 // Null for an unknown name.
 const Renderer* find_renderer(std::string_view name);
 
+// Throws NumericalFault, with the label and the place, where a value of the frame is not finite.
+void check_finite(const Frame& frame, std::string_view label);
+
 // The job's picture with all that the renderer can make, and a progress bar meanwhile. Throws NumericalFault.
 TimedFrame render_all_layers(const Job& job, const Renderer& renderer);
 

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/commands/result_json.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
+#include "common/picture/atomic_file.h"
+
 namespace sidelight {
+
+void add_crop(nlohmann::ordered_json& json, const Rect& part, int full_width, int full_height) {
+  if (part != Rect{0, 0, full_width, full_height}) json["crop"] = {part.x0, part.y0, part.x1, part.y1};
+}
 
 nlohmann::ordered_json metrics_json(const Metrics& m) {
   constexpr std::array<const char*, 3> kChannels{"R", "G", "B"};
@@ -16,6 +24,14 @@ nlohmann::ordered_json metrics_json(const Metrics& m) {
                               {"rms", m.rms}};
   json["psnr"] = m.psnr ? nlohmann::ordered_json(*m.psnr) : nlohmann::ordered_json(nullptr);
   return json;
+}
+
+void write_json(const std::string& path, const nlohmann::ordered_json& json) {
+  const std::string text = json.dump(2) + "\n";
+  if (path == "-")
+    fmt::print("{}", text);
+  else
+    write_text_file(path, text);
 }
 
 nlohmann::ordered_json spread_json(const Spread& spread) {

@@ -7,7 +7,7 @@
 #include "common/picture/atomic_file.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/interrupt.h"
-#include "viewer/commands/job.h"
+#include "viewer/commands/renderers.h"
 #include "viewer/window/keys.h"
 #include "viewer/window/offscreen.h"
 #include "viewer/window/window.h"
@@ -56,9 +56,18 @@ WindowState first_state(const ViewFlags& flags, const SceneOpener& open) {
   return session.state();
 }
 
+void check_flags(const ViewFlags& flags) {
+  if (flags.screenshot.empty()) return;
+  if (!flags.screenshot.ends_with(".png"))
+    throw UsageError("--screenshot wants a file that ends in .png; got '" + flags.screenshot + "'");
+  if (!flags.frame_log.empty())
+    throw UsageError("--frame-log is for the window; --screenshot draws one frame only");
+}
+
 int run_view(const ViewFlags& flags) {
+  check_flags(flags);
   if (flags.screenshot.empty()) require_display();   // before any work
-  const glm::ivec2 window = parse_size(flags.window, "--size");
+  const glm::ivec2 window = parse_size(flags.window, "--size", kLongestOffscreen);
   JobFlags opening = flags.job;
   const SceneOpener open = [&opening](const std::string& file, const Settings& set) {
     OpenedScene opened = open_scene(opening, file, set);
@@ -78,8 +87,12 @@ int run_view(const ViewFlags& flags) {
     return code;
   }
   const Job job = load_job(opening);   // for the metadata
-  write_png(flags.screenshot, screenshot(state, render_pictures(picture_task(state)), window.x, window.y),
+  const Pictures pictures = render_pictures(picture_task(state));
+  write_png(flags.screenshot, screenshot(state, pictures, window.x, window.y),
             job_metadata(job, "raster, raytrace"));
+  // The window shows such a picture, too; but who asked for one without looking must learn of it.
+  check_finite(*pictures.rastered, "z-buffer");
+  check_finite(*pictures.traced, "ray tracer");
   return 0;
 }
 

@@ -119,6 +119,7 @@ std::string stem(const std::string& path) {
     const bool kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
     if (!kept) c = '-';
   }
+  name.erase(0, name.find_first_not_of('-'));  // which a command would take for a flag
   constexpr std::size_t kLongest = 60;
   return name.empty() ? "scene" : name.substr(0, kLongest);
 }
@@ -181,20 +182,20 @@ std::vector<std::pair<ErrorKind, Scatter>> small_kind_scatters(const BenchResult
   return out;
 }
 
-std::vector<std::pair<std::string, std::string>> bench_plots(const BenchResult& result) {
-  std::vector<std::pair<std::string, std::string>> out;
-  if (!result.timed) return out;
+std::vector<BenchPlot> bench_plots(const BenchResult& result) {
+  std::vector<BenchPlot> out;
   std::set<std::string> used;
   for (std::size_t scene = 0; scene < result.scenes.size(); ++scene) {
-    if (finished_points(result, scene).empty()) continue;
+    const bool drawn = result.timed && !finished_points(result, scene).empty();
     const std::string first = stem(result.scenes[scene].path);
     std::string name = first;
     for (int again = 2; !used.insert(name).second; ++again) name = fmt::format("{}-{}", first, again);
-    out.emplace_back(name + "-total.svg", svg_file(total_scatter(result, scene)));
-    for (const ErrorKind kind : kAllKinds)
-      if (const std::optional<Scatter> plot = kind_scatter(result, scene, kind))
-        out.emplace_back(fmt::format("{}-{}.svg", name, kErrorKindNames[static_cast<std::size_t>(kind)]),
-                         svg_file(*plot));
+    out.push_back({name + "-total.svg", drawn ? svg_file(total_scatter(result, scene)) : ""});
+    for (const ErrorKind kind : kAllKinds) {
+      const std::optional<Scatter> plot = drawn ? kind_scatter(result, scene, kind) : std::nullopt;
+      out.push_back({fmt::format("{}-{}.svg", name, kErrorKindNames[static_cast<std::size_t>(kind)]),
+                     plot ? svg_file(*plot) : ""});
+    }
   }
   return out;
 }

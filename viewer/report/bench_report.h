@@ -14,8 +14,14 @@ namespace sidelight {
 // arguments give equal bytes.
 std::string bench_report(const BenchResult& result);
 
-// SVG files by name, such as "showcase-total.svg" and "showcase-sampling.svg", a scene's named by its file; names are
-// ASCII letters, digits, "-" and "_" before the ".svg", no two the same. None without times.
-std::vector<std::pair<std::string, std::string>> bench_plots(const BenchResult& result);
+struct BenchPlot {
+  std::string name;  // of its file, such as "showcase-total.svg" or "showcase-sampling.svg"
+  std::string svg;  // empty where there is nothing to draw: no times, nothing finished, no error of this kind
+
+  bool operator==(const BenchPlot&) const = default;
+};
+// Four a scene, named by its file: ASCII letters, digits, "-" and "_" before the ".svg", the first no "-"; no two the
+// same.
+std::vector<BenchPlot> bench_plots(const BenchResult& result);
 
 }  // namespace sidelight

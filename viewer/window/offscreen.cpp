@@ -122,10 +122,9 @@ Image8 draw_on_this_thread(int width, int height, const std::function<void(Canva
 }  // namespace
 
 Image8 draw_offscreen(int width, int height, const std::function<void(Canvas&)>& draw) {
-  constexpr int kLimit = 16384;
-  if (std::min(width, height) < 1 || std::max(width, height) > kLimit)
+  if (std::min(width, height) < 1 || std::max(width, height) > kLongestOffscreen)
     throw UsageError("cannot draw a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                     " off screen: sides are from 1 to " + std::to_string(kLimit));
+                     " off screen: sides are from 1 to " + std::to_string(kLongestOffscreen));
   static std::mutex one_at_a_time;  // OSMesa makes its shared state without a lock
   const std::lock_guard lock(one_at_a_time);
   return std::async(std::launch::async, [&] { return draw_on_this_thread(width, height, draw); }).get();

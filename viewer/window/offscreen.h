@@ -18,9 +18,10 @@
 
 namespace sidelight {
 
+inline constexpr int kLongestOffscreen = 16384;  // side that OSMesa can draw
+
 // Runs `draw` with a fresh canvas and returns what it drew by Canvas::draw, which it must call with this
-// size. What it throws passes through. Throws UsageError if the size is not within what OSMesa can draw (1 to
-// 16384).
+// size. What it throws passes through. Throws UsageError if a side is not from 1 to kLongestOffscreen.
 Image8 draw_offscreen(int width, int height, const std::function<void(Canvas&)>& draw);
 
 // Both pictures at zoom 1, their own bytes, with title and captions; the size follows from the pictures.

@@ -47,7 +47,7 @@ Settings settings_shown(const WindowState& state) {
 std::string explain_command(const WindowState& state) {
   const glm::ivec2 pixel = state.inspected.value_or(glm::ivec2(0));
   std::string line =
-      fmt::format("sidelight explain {} --pixel {},{}", shell_word(state.file), pixel.x, pixel.y);
+      fmt::format("sidelight explain {} --pixel {},{}", shell_file(state.file), pixel.x, pixel.y);
   if (state.n > 1) line += fmt::format(" --spp {}", state.n * state.n);
   for (const auto& [key, value] : settings_shown(state)) line += " --set " + shell_word(key + "=" + value);
   return line;
