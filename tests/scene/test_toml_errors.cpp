@@ -184,7 +184,7 @@ TEST_CASE("toml errors: numbers that are not finite, in every field") {
       ++fields;
       if (error != "no error") {
         misplaced += error.find("scene.toml:" + std::to_string(line) + ":") != 0 &&
-                     error.find("scene.toml:1:1:") != 0;   // an object as a whole
+                     error.find("scene.toml:1:1:") != 0;  // an object as a whole
         continue;
       }
       const Scene scene = parse_scene(text, "scene.toml");
@@ -198,7 +198,8 @@ TEST_CASE("toml errors: numbers that are not finite, in every field") {
   }
   for (const std::string value : {"nan", "inf", "-inf", "1e400"})
     for (const std::string& camera :
-         {"eye = [0, 0, " + value + "]\nlook_at = [0, 0, 0]\nview_height = 1", "eye = [0, 0, 1]\nlook_at = [0, " + value + ", 0]\nview_height = 1",
+         {"eye = [0, 0, " + value + "]\nlook_at = [0, 0, 0]\nview_height = 1",
+          "eye = [0, 0, 1]\nlook_at = [0, " + value + ", 0]\nview_height = 1",
           "eye = [0, 0, 1]\nlook_at = [0, 0, 0]\nview_height = " + value,
           "eye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = " + value,
           "eye = [0, 0, 1]\nlook_at = [0, 0, 0]\nview_height = 1\nup = [" + value + ", 1, 0]"}) {

@@ -79,7 +79,9 @@ TEST_CASE("toml errors: shapes") {
        {torus + "radii = [2, 1]\nsegments = 64", "5:12", "expected [around, tube]"},
        {torus + "radii = [2, 1]\nsegments = [64, 2]", "5:17", "'segments' is 2"},
        {torus + "radii = [2, 1]\nsegments = [4096, 4096]", "5:12", "expected a product of at most 262144"},
-       {many, "41:1", "the scene has 4718592 triangles of generated shapes (again for each step that changes one), expected at most 4194304"}});
+       {many, "41:1",
+        "the scene has 4718592 triangles of generated shapes (again for each step that changes one), "
+        "expected at most 4194304"}});
 }
 
 TEST_CASE("toml errors: transforms") {

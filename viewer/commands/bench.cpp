@@ -111,7 +111,9 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("bench", "speed against error: what each setting costs, and what it buys");
   verb->add_option("SCENE", flags->scenes, "scene files (TOML)")->required()->type_name("");
-  verb->add_option("-o,--output", flags->folder, "folder DIR for report.html, bench.json, bench.csv and plots")->required();
+  verb->add_option("-o,--output", flags->folder,
+                   "folder DIR for report.html, bench.json, bench.csv and plots")
+      ->required();
   verb->add_option("-r,--resolution", flags->job.size, "picture size WxH, instead of each scene's");
   verb->add_option("--sweep", flags->sweep, "which settings: default, or one knob of those below")
       ->type_name("NAME");
@@ -129,16 +131,16 @@ void add_bench_command(CLI::App& app, int& exit_code) {
     knob_lines +=
         fmt::format("  {:<13} {} error: {}\n", knob.name,
                     knob.moves ? kErrorKindNames[static_cast<std::size_t>(*knob.moves)] : "no", knob.wanted);
-  verb->footer(
-      fmt::format("Knobs, the kind of error each moves, and its values:\n{}"
-                  "The default sweep leaves out, by name, the slowest settings of a scene that would take it beyond\n"
-                  "two minutes at 640x480 on two cores; --sweep and --set leave out none.\n"
-                  "Ctrl-C ends it with what is finished. Reference images are kept in ~/.cache/sidelight.\n"
-                  "Examples:\n"
-                  "  sidelight bench scenes/06-shadows.toml -o out/bench -r 64x48\n"
-                  "  sidelight bench scenes/02-diffuse.toml -o out/bench -r 64x48 --set samples=1,4 --set "
-                  "isa=scalar,best",
-                  knob_lines));
+  verb->footer(fmt::format(
+      "Knobs, the kind of error each moves, and its values:\n{}"
+      "The default sweep leaves out, by name, the slowest settings of a scene that would take it beyond\n"
+      "two minutes at 640x480 on two cores; --sweep and --set leave out none.\n"
+      "Ctrl-C ends it with what is finished. Reference images are kept in ~/.cache/sidelight.\n"
+      "Examples:\n"
+      "  sidelight bench scenes/06-shadows.toml -o out/bench -r 64x48\n"
+      "  sidelight bench scenes/02-diffuse.toml -o out/bench -r 64x48 --set samples=1,4 --set "
+      "isa=scalar,best",
+      knob_lines));
   verb->callback([flags, &exit_code] { exit_code = run_bench(*flags); });
 }
 

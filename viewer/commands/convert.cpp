@@ -24,8 +24,7 @@ int run_convert(const ConvertFlags& flags) {
   const Job job = load_job(flags.job);
   if (!flags.job.quiet)
     for (const PovLimit& limit : pov_limits(job.scene))
-      fmt::print(stderr, "{}: not the same in POV-Ray: {}\n", printable(flags.job.scene, 1000),
-                 limit.text);
+      fmt::print(stderr, "{}: not the same in POV-Ray: {}\n", printable(flags.job.scene, 1000), limit.text);
   write_text_file(flags.output, [&](const AppendText& append) {
     write_pov(job.scene, [&](std::string_view text) {
       stop_if_interrupted();

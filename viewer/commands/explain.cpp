@@ -23,7 +23,8 @@ struct ExplainFlags {
   std::string pixel, sample, json;
 };
 
-std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel, const std::vector<glm::ivec2>& samples) {
+std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel,
+                                           const std::vector<glm::ivec2>& samples) {
   const auto rasterizer = raster::prepare(job.scene, job.options.threads);
   const auto tracer = raytrace::prepare(job.scene, job.options.threads);
   std::vector<ExplainedSample> out;
@@ -67,14 +68,17 @@ int run_explain(const ExplainFlags& flags) {
 
 void add_explain_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<ExplainFlags>();
-  CLI::App* verb = app.add_subcommand("explain", "why a pixel has its colour, in both renderers, term by term");
+  CLI::App* verb =
+      app.add_subcommand("explain", "why a pixel has its colour, in both renderers, term by term");
   add_job_flags(*verb, flags->job);
   verb->add_option("--pixel", flags->pixel, "the pixel x,y (y down)")->required();
   verb->add_option("--sample", flags->sample, "one of its samples i,j; else all of them");
-  verb->add_option("--set", flags->job.set, "a value of the scene file first, as trace.depth=2; may be repeated")
+  verb->add_option("--set", flags->job.set,
+                   "a value of the scene file first, as trace.depth=2; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  verb->add_option("--json", flags->json, "write it as JSON to FILE, - for standard output instead of the text");
+  verb->add_option("--json", flags->json,
+                   "write it as JSON to FILE, - for standard output instead of the text");
   verb->footer(
       "Examples:\n"
       "  sidelight explain scenes/showcase.toml --pixel 380,290\n"

@@ -12,7 +12,7 @@ namespace sidelight {
 namespace {
 
 std::atomic<bool> raised{false};
-static_assert(std::atomic<bool>::is_always_lock_free);   // may be touched by a signal handler
+static_assert(std::atomic<bool>::is_always_lock_free);  // may be touched by a signal handler
 
 void on_signal(int signal) {
   raised = true;

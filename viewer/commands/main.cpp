@@ -40,7 +40,8 @@ int complain(int code, const std::string& message) {
 // One empty line between groups of options, not two, so that a verb's help fits a screen.
 struct HelpFormatter : CLI::Formatter {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
-    return std::regex_replace(CLI::Formatter::make_help(app, std::move(name), mode), std::regex("\n{3,}"), "\n\n");
+    return std::regex_replace(CLI::Formatter::make_help(app, std::move(name), mode), std::regex("\n{3,}"),
+                              "\n\n");
   }
 };
 
@@ -81,9 +82,10 @@ std::string unexpected(const CLI::App& verb) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("sidelight renders one scene by z-buffer and by ray tracing, and accounts for every difference.",
-               "sidelight");
-  app.formatter(std::make_shared<HelpFormatter>());   // the verbs have it, too
+  CLI::App app(
+      "sidelight renders one scene by z-buffer and by ray tracing, and accounts for every difference.",
+      "sidelight");
+  app.formatter(std::make_shared<HelpFormatter>());  // the verbs have it, too
   app.set_version_flag("--version", "sidelight " SIDELIGHT_VERSION);
   app.require_subcommand(1);
   app.footer(
@@ -108,7 +110,7 @@ int run(int argc, char** argv) {
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw OutputError("standard output: cannot write");
     return exit_code;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);   // --help, --version
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     const std::vector<CLI::App*> verb = app.get_subcommands();
     const bool extra = !verb.empty() && !verb[0]->remaining().empty();
     const std::string what = extra ? unexpected(*verb[0]) : error.what();
@@ -117,7 +119,8 @@ int run(int argc, char** argv) {
   } catch (const UsageError& error) {
     return complain(kUsage, error.what());
   } catch (const InputError& error) {
-    std::fputs((error.what() + std::string("\n")).c_str(), stderr);   // begins with file:line:column, where editors look for it
+    std::fputs((error.what() + std::string("\n")).c_str(),
+               stderr);  // begins with file:line:column, where editors look for it
     return kInput;
   } catch (const std::bad_alloc&) {
     return complain(kInput, "not enough memory for this scene and size");
@@ -133,7 +136,8 @@ int run(int argc, char** argv) {
     return complain(kInterrupted, error.what());
   } catch (const std::system_error& error) {
     if (!std::ferror(stdout) && !std::ferror(stderr)) throw;
-    return complain(kOutput, fmt::format("standard {}: {}", std::ferror(stdout) ? "output" : "error", error.what()));
+    return complain(kOutput,
+                    fmt::format("standard {}: {}", std::ferror(stdout) ? "output" : "error", error.what()));
   }
 }
 

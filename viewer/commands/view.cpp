@@ -66,16 +66,17 @@ void check_flags(const ViewFlags& flags) {
 
 int run_view(const ViewFlags& flags) {
   check_flags(flags);
-  if (flags.screenshot.empty()) require_display();   // before any work
+  if (flags.screenshot.empty()) require_display();  // before any work
   const glm::ivec2 window = parse_size(flags.window, "--size", kLongestOffscreen);
   JobFlags opening = flags.job;
   const SceneOpener open = [&opening](const std::string& file, const Settings& set) {
     OpenedScene opened = open_scene(opening, file, set);
-    opening.quiet = true;   // warnings are told once
+    opening.quiet = true;  // warnings are told once
     return opened;
   };
   WindowState state = first_state(flags, open);
-  if (state.faults.any() && !flags.job.quiet) fmt::print(stderr, "faults on purpose: {}\n", state.faults.text());
+  if (state.faults.any() && !flags.job.quiet)
+    fmt::print(stderr, "faults on purpose: {}\n", state.faults.text());
   if (flags.screenshot.empty()) {
     restore_default_signals();
     FrameLog log;
@@ -86,7 +87,7 @@ int run_view(const ViewFlags& flags) {
     }
     return code;
   }
-  const Job job = load_job(opening);   // for the metadata
+  const Job job = load_job(opening);  // for the metadata
   const Pictures pictures = render_pictures(picture_task(state));
   write_png(flags.screenshot, screenshot(state, pictures, window.x, window.y),
             job_metadata(job, "raster, raytrace"));
@@ -100,18 +101,21 @@ int run_view(const ViewFlags& flags) {
 
 void add_view_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<ViewFlags>();
-  CLI::App* verb = app.add_subcommand("view", "the window: two pictures side by side, linked; h shows its keys");
+  CLI::App* verb =
+      app.add_subcommand("view", "the window: two pictures side by side, linked; h shows its keys");
   add_job_flags(*verb, flags->job);
   add_fault_flags(*verb, flags->job.faults);
   const std::vector<std::string> modes(kStepModes.begin(), kStepModes.end());
-  verb->add_option("--mode", flags->mode, "first: side-by-side, swipe, flip, difference, causes, ledger, or a layer")
+  verb->add_option("--mode", flags->mode,
+                   "first: side-by-side, swipe, flip, difference, causes, ledger, or a layer")
       ->type_name("NAME")
       ->check(CLI::IsMember(modes).description(""));
   verb->add_option("--step", flags->step, "the lesson's step N is shown first")
       ->type_name("N")
       ->check(CLI::Range(1, 100).description(""));
   verb->add_option("--inspect", flags->inspect, "the pixel x,y is inspected first");
-  verb->add_option("--press", flags->press, "these keys are pressed first, as in \"t t c\"")->type_name("KEYS");
+  verb->add_option("--press", flags->press, "these keys are pressed first, as in \"t t c\"")
+      ->type_name("KEYS");
   verb->add_flag("--no-times", flags->job.no_times, "leave times out");
   verb->add_option("--screenshot", flags->screenshot, "draw the window off screen into FILE.png instead");
   verb->add_option("--frame-log", flags->frame_log, "write every frame's times to FILE.csv at the end");

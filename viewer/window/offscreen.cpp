@@ -63,7 +63,9 @@ Image8 screenshot(const WindowState& state, const Pictures& pictures, int width,
     // Twice, as in the window: widgets know their sizes from the frame before.
     for (int frame = 0; frame < 2; ++frame)
       canvas.draw(width, height, [&] {
-        draw_window(canvas, {fitted, pictures, pictures, shown, textures, inspection ? &*inspection : nullptr}, layout);
+        draw_window(canvas,
+                    {fitted, pictures, pictures, shown, textures, inspection ? &*inspection : nullptr},
+                    layout);
       });
   });
 }
@@ -145,7 +147,8 @@ extern "C" const char* __lsan_default_options() { return "print_suppressions=0";
 #endif
 #ifdef __SANITIZE_THREAD__
 extern "C" const char* __tsan_default_suppressions() {
-  return "race:libOSMesa\nrace:libLLVM\ndeadlock:libOSMesa\ndeadlock:libLLVM\ncalled_from_lib:libOSMesa.so.8\n";
+  return "race:libOSMesa\nrace:libLLVM\ndeadlock:libOSMesa\ndeadlock:libLLVM\ncalled_from_lib:libOSMesa.so."
+         "8\n";
 }
 extern "C" const char* __tsan_default_options() { return "print_suppressions=0"; }
 #endif
