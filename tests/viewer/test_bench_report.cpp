@@ -116,6 +116,8 @@ TEST_CASE("bench report: SVG files stand alone and have harmless names") {
           std::string::npos);
     CHECK(text.rfind("<svg xmlns=\"http://www.w3.org/2000/svg\"", 0) == 0);
     CHECK(contains(text, "prefers-color-scheme: dark"));
+    CHECK(contains(text, "fill: #1b1d22"));
+    CHECK_FALSE(contains(text, "var("));  // nor for programs that know no variables of CSS
     CHECK(count(text, "://") == 1);  // that name alone
   }
   CHECK(names.size() == 12);

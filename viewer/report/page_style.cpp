@@ -1,50 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How a report looks: one column of text, pictures as wide as there is room, light or dark as the reader's system is.
-// Colours of text have a contrast of at least 4.5 to their ground, colours of curves one of at least 3.
+// Colours are those of plot_style.cpp.
 #include "viewer/report/html.h"
 
 namespace sidelight {
-
-const std::string_view kPlotStyle = R"css(
-:root {
-  color-scheme: light dark;
-  --paper: #fff; --ink: #1b1d22; --quiet: #575c66; --rule: #d5d8de; --panel: #f4f5f7;
-  --accent: #0b5cad; --on-accent: #fff; --bad: #a8201a; --beaten: #a0a4ac;
-  --c0: #0072b2; --c1: #c44e00; --c2: #00835f; --c3: #a2457f; --c4: #8a6100; --c5: #1b1d22;
-}
-@media (prefers-color-scheme: dark) {
-  :root {
-    --paper: #14161a; --ink: #e9ebef; --quiet: #a7adb8; --rule: #3a3f49; --panel: #1e2127;
-    --accent: #7cb8f5; --on-accent: #10131a; --bad: #ff8a80; --beaten: #6d737e;
-    --c0: #56b4e9; --c1: #ff8a3d; --c2: #2bc49a; --c3: #e59ac8; --c4: #e6b93c; --c5: #e9ebef;
-  }
-}
-svg { font: 13px system-ui, "Segoe UI", Arial, "DejaVu Sans", sans-serif; fill: var(--ink); overflow: hidden; }
-svg .grid { stroke: var(--rule); stroke-width: 1; fill: none; }
-svg .frame { stroke: var(--quiet); stroke-width: 1.2; fill: none; }
-svg .quiet { fill: var(--quiet); }
-svg .curve { fill: none; stroke-width: 2.2; stroke-linejoin: round; stroke-linecap: round; }
-svg .lobe { fill: var(--c0); fill-opacity: 0.18; stroke: var(--c0); stroke-width: 2; stroke-linejoin: round; }
-svg .c0 { stroke: var(--c0); } svg .c1 { stroke: var(--c1); } svg .c2 { stroke: var(--c2); }
-svg .c3 { stroke: var(--c3); } svg .c4 { stroke: var(--c4); } svg .c5 { stroke: var(--c5); }
-svg .paper { fill: var(--paper); }
-svg .floor { stroke: var(--quiet); stroke-width: 1; stroke-dasharray: 2 4; fill: none; }
-svg .staircase { stroke: var(--ink); stroke-width: 1.6; fill: none; stroke-linejoin: round; }
-svg .thread, svg .leader, svg .whisker { stroke: var(--quiet); stroke-width: 0.8; fill: none; }
-svg .thread { stroke-dasharray: 1 3; stroke-linecap: round; }
-svg .label { font-size: 12px; paint-order: stroke; stroke: var(--paper); stroke-width: 3px; stroke-linejoin: round; }
-svg .reason { fill: var(--bad); }
-svg .s0 { color: var(--c0); } svg .s1 { color: var(--c1); } svg .s2 { color: var(--c2); }
-svg .s3 { color: var(--c3); } svg .s4 { color: var(--c4); } svg .s5 { color: var(--c5); }
-svg .shape { fill: currentColor; stroke: var(--paper); stroke-width: 1; }
-svg .beaten .shape { fill: var(--beaten); }
-svg .failed .shape { fill: var(--paper); stroke: currentColor; stroke-width: 1.8; }
-svg .good .whisker { stroke: currentColor; stroke-width: 1.2; }
-svg .reach { fill: none; stroke: none; pointer-events: all; }
-svg .mark.shown .reach { stroke: currentColor; stroke-width: 1.5; }
-svg .mark:focus { outline: none; }
-svg .mark:focus .reach { stroke: var(--accent); stroke-width: 3; }
-)css";
 
 const std::string_view kPageStyle = R"css(
 * { box-sizing: border-box; }

@@ -290,7 +290,7 @@ std::string svg_file(const Scatter& plot) {
 <rect class="paper" width="100%" height="100%"/>
 {4}</svg>
 )",
-             plot.width, plot.height, escaped(plot.title, 600), Html{std::string(kPlotStyle)}, drawing(plot))
+             plot.width, plot.height, escaped(plot.title, 600), Html{plot_file_style()}, drawing(plot))
       .markup;
 }
 
