@@ -32,6 +32,8 @@ code, kbd { font-family: ui-monospace, "Cascadia Mono", Menlo, Consolas, "DejaVu
 kbd { border: 1px solid; border-radius: 0.2rem; padding: 0 0.35em; opacity: 0.8; }
 pre { background: var(--panel); border: 1px solid var(--rule); border-radius: 0.4rem; padding: 0.8rem 1rem;
       margin: 0 0 1rem; white-space: pre-wrap; }
+pre.lesson { font-size: 1rem; }
+pre .quiet { user-select: none; }
 .formula { font: italic 1.35rem/1.5 "Iowan Old Style", Palatino, Georgia, "DejaVu Serif", serif; }
 
 figure { margin: 0; min-width: 0; }
