@@ -242,8 +242,8 @@ TEST_CASE("report: with a fault on purpose it does not say that the account is r
   REQUIRE(here.run(compare + Arguments{"wrong", "--tessellate", "8"}).code == 1);
   const std::string right = read_bytes(here / "right/report.html"),
                     wrong = read_bytes(here / "wrong/report.html");
-  for (const char* words :
-       {"to the last rounding.</p>", "and this is the ray tracer's picture", "in both renderers, term"}) {
+  for (const char* words : {"equal in every bit.</f", "to the last rounding.</p>",
+                            "and this is the ray tracer's picture", "in both renderers, term"}) {
     CHECK(contains(right, words));
     CHECK_FALSE(contains(wrong, words));
   }

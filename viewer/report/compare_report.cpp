@@ -132,8 +132,11 @@ more.)")};
       "The cause map: for each pixel that differs, its main cause",
       html(
           R"(<b>Cause map.</b>{}: the hue is the cause that weighs most, the brightness is how much the pictures differ.
-Black where they are equal in every bit.)",
-          legend)};
+Black where they are equal in every bit.{})",
+          legend,
+          result.spoiled > 0 || result.unexplained > 0
+              ? html(" White where they differ without a cause: unexplained, or spoiled by a fault on purpose.")
+              : Html{})};
   return html(R"(<section>
 <h2>What differs, and why</h2>
 {}<div class="columns">
