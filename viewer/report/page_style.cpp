@@ -50,6 +50,12 @@ th, td { padding: 0.35rem 1.6rem 0.35rem 0; border-bottom: 1px solid var(--rule)
          vertical-align: top; font-weight: 400; }
 thead th { color: var(--quiet); font-size: 0.92rem; }
 thead th:not(:first-child), td { text-align: right; padding-right: 0.4rem; padding-left: 1.2rem; }
+thead th, thead + tbody th, thead + tbody td { overflow-wrap: normal; }
+@media (max-width: 30rem) {
+  thead th, thead + tbody { font-size: 0.85rem; }
+  thead th, thead + tbody th { padding-right: 0; }
+  thead th:not(:first-child), thead + tbody td { padding-right: 0; padding-left: 0.5rem; }
+}
 .swatch { display: inline-block; width: 0.85em; height: 0.85em; margin-right: 0.5em; border-radius: 0.15em;
           border: 1px solid var(--quiet); vertical-align: -0.08em; }
 .scale { max-width: 46rem; margin-top: 0.8rem; }
@@ -104,7 +110,8 @@ button { border-radius: 0.4rem; }
 .steps.one li.shown { display: block; }
 .step { display: grid; gap: 1rem 1.5rem; grid-template-columns: minmax(0, 1fr) minmax(0, 2fr); }
 .step > :last-child img { width: min(100%, 60rem); }
-.terms figure { display: grid; gap: 0.8rem; grid-template-columns: minmax(0, 15rem) 1fr; margin-bottom: 0.8rem; }
+.terms figure { display: grid; gap: 0.8rem; grid-template-columns: minmax(0, 15rem) minmax(max-content, 1fr);
+                margin-bottom: 0.8rem; }
 .terms figcaption { margin: 0; align-self: end; }
 @media (max-width: 46rem) { .step { grid-template-columns: minmax(0, 1fr); } }
 
