@@ -142,6 +142,7 @@ TEST_CASE(
   CHECK(count(page, "class=\"sortable\"") == 2);
   CHECK(contains(page, "8x8 samples a pixel"));
   CHECK(contains(page, "<th scope=\"row\">equal-error speed-up</th>"));
+  CHECK(contains(page, "<td class=\"words\">12 samples show another surface"));
   CHECK(contains(page, "as fast as"));
   CHECK_FALSE(contains(page, "shown reduced"));
   CHECK_FALSE(contains(page, "://"));

@@ -155,12 +155,20 @@ select { font: inherit; max-width: 100%; padding: 0.4rem 0.5rem; background: var
          border: 1px solid var(--rule); border-radius: 0.4rem; }
 .facts th { white-space: nowrap; }
 .facts td { text-align: left; }
+@page numbers { size: landscape; }
 @media print {
+  main { padding: 0; }
   .controls { display: none !important; }
   .steps.one li { display: block; }
-  h2, figure, li { break-inside: avoid; }
+  h2, p, figure, li, table { break-inside: avoid; }
+  h2, h3, h4, p:has(+ pre) { break-after: avoid; }
+  .numbers { page: numbers; }
   .wide { overflow: visible; }
-  .wide table { font-size: 0.6rem; }
+  .wide table { font-size: 0.6rem; break-inside: auto; }
+  .wide th, .wide td { font-size: inherit; padding-right: 0; }
+  .wide th, .wide td.words { white-space: normal; }
+  .wide thead th:not(:first-child), .wide td { padding-left: 0.35rem; }
+  th button::after { display: none; }
 }
 )css";
 
