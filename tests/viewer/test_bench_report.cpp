@@ -65,7 +65,7 @@ TEST_CASE("bench report: a scene's marks are filled, grey or hollow, told by sha
     const bool fails = contains(mark.words, "12 samples show another surface");
     CHECK(fails == (mark.state == MarkState::failed));
     CHECK(contains(mark.words, "; dominated") == (mark.state == MarkState::beaten));
-    CHECK(mark.label.size() == (fails ? 2 : 1));  // the reason, beside it
+    CHECK(mark.reason.empty() != fails);  // the reason, beside it
     CHECK(mark.x_low == doctest::Approx(0.9 * mark.x));
   }
   // The values of depth and of samples, each with the default; precision has but one.
@@ -89,7 +89,7 @@ TEST_CASE("bench report: each kind of error is drawn with what moves it alone") 
     const std::optional<Scatter> plot = kind_scatter(result, 0, kind);
     REQUIRE(plot.has_value());
     CHECK_FALSE(plot->staircase);
-    for (const Mark& mark : plot->marks) out.insert(plot->series[mark.series] + " " + mark.label[0]);
+    for (const Mark& mark : plot->marks) out.insert(plot->series[mark.series] + " " + mark.name);
     return out;
   };
   using Names = std::set<std::string>;
@@ -116,6 +116,8 @@ TEST_CASE("bench report: SVG files stand alone and have harmless names") {
           std::string::npos);
     CHECK(text.rfind("<svg xmlns=\"http://www.w3.org/2000/svg\"", 0) == 0);
     CHECK(contains(text, "prefers-color-scheme: dark"));
+    CHECK(contains(text, "fill: #1b1d22"));
+    CHECK_FALSE(contains(text, "var("));  // nor for programs that know no variables of CSS
     CHECK(count(text, "://") == 1);  // that name alone
   }
   CHECK(names.size() == 12);
@@ -143,6 +145,7 @@ TEST_CASE(
   CHECK(count(page, "class=\"sortable\"") == 2);
   CHECK(contains(page, "8x8 samples a pixel"));
   CHECK(contains(page, "<th scope=\"row\">equal-error speed-up</th>"));
+  CHECK(contains(page, "<td class=\"words\">12 samples show another surface"));
   CHECK(contains(page, "as fast as"));
   CHECK_FALSE(contains(page, "shown reduced"));
   CHECK_FALSE(contains(page, "://"));

@@ -10,6 +10,7 @@
 #include "tests/tier.h"
 #include "tests/viewer/program.h"
 #include "viewer/report/highlights.h"
+#include "viewer/report/lesson_html.h"
 #include "viewer/report/plot_svg.h"
 
 using namespace sidelight;
@@ -122,6 +123,24 @@ TEST_CASE("report: only Html enters markup as it is") {
   CHECK(html("{}", std::string("{} <{0}>")).markup == "{} &lt;{0}&gt;");  // a value is no pattern
 }
 
+TEST_CASE("report: a lesson's commands stay lines, its other lines run together") {
+  const auto lesson = [](std::string_view text) { return lesson_html(text).markup; };
+  CHECK(lesson("").empty());
+  CHECK(lesson(" \n\n \t\n").empty());
+  CHECK(
+      lesson("One\nparagraph.\n \nAnother.") ==
+      "<p class=\"lesson\" dir=\"auto\">One paragraph.</p>\n<p class=\"lesson\" dir=\"auto\">Another.</p>\n");
+  CHECK(lesson("Try\n  sidelight view <a>  its remark\r\nsidelight help\nas sidelight says.") ==
+        "<p class=\"lesson\" dir=\"auto\">Try</p>\n"
+        "<pre class=\"lesson\"><code>sidelight view &lt;a&gt;<span class=\"quiet\">  its remark</span>\n"
+        "sidelight help</code></pre>\n<p class=\"lesson\" dir=\"auto\">as sidelight says.</p>\n");
+  for (const std::string line : {"sidelight x\n", "line\n\n"}) {
+    std::string endless;
+    for (int i = 0; i < 4000; ++i) endless += line;
+    CHECK(lesson(endless).size() < 40'000);  // of 4000 bytes with their markup
+  }
+}
+
 TEST_CASE("report: base64 as in RFC 4648, section 10") {
   CHECK(base64_of("") == "");
   CHECK(base64_of("f") == "Zg==");
@@ -223,8 +242,8 @@ TEST_CASE("report: with a fault on purpose it does not say that the account is r
   REQUIRE(here.run(compare + Arguments{"wrong", "--tessellate", "8"}).code == 1);
   const std::string right = read_bytes(here / "right/report.html"),
                     wrong = read_bytes(here / "wrong/report.html");
-  for (const char* words :
-       {"to the last rounding.</p>", "and this is the ray tracer's picture", "in both renderers, term"}) {
+  for (const char* words : {"equal in every bit.</f", "to the last rounding.</p>",
+                            "and this is the ray tracer's picture", "in both renderers, term"}) {
     CHECK(contains(right, words));
     CHECK_FALSE(contains(wrong, words));
   }

@@ -9,6 +9,7 @@
 
 #include "tests/support/text.h"
 #include "viewer/report/label_places.h"
+#include "viewer/report/label_text.h"
 #include "viewer/report/log_axis.h"
 #include "viewer/report/scatter_svg.h"
 
@@ -142,6 +143,25 @@ TEST_CASE("scatter: a plot of nothing, of one mark and of impossible marks is st
   svg = scatter_svg(plot).markup;
   CHECK(marks(svg).size() == 1);
   CHECK_FALSE(contains(svg, "nan"));
+}
+
+TEST_CASE("scatter: a long reason is broken between words, and only then cut") {
+  using Lines = std::vector<std::string>;
+  const std::string word(kLongestLine, 'w');
+  CHECK(in_two_lines("") == Lines{""});
+  CHECK(in_two_lines(word) == Lines{word});
+  CHECK(in_two_lines(word + " 12") == Lines{word, "12"});
+  CHECK(in_two_lines("a " + word) == Lines{"a", word});
+  CHECK(in_two_lines("a b " + word + "x") == Lines{"a b", word + "…"});
+  CHECK(in_two_lines(word + "x y") == Lines{word + "…"});  // no blank to break at
+
+  Scatter plot;
+  plot.marks = {mark_at(1, 1, MarkState::failed)};
+  plot.marks[0].name = "snap-bits 4";
+  plot.marks[0].reason = "samples that show another surface: 1234567";
+  const std::string svg = scatter_svg(plot).markup;
+  for (const char* line : {">snap-bits 4<", ">samples that show another surface:<", ">1234567<"})
+    CHECK(contains(svg, line));
 }
 
 TEST_CASE("scatter: labels overlap neither each other, nor marks, nor the edge") {

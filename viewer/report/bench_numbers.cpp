@@ -25,7 +25,7 @@ Html error_table(const BenchResult& result, const std::vector<std::size_t>& orde
                "fails what"},
               {},
               true,
-              {1, 15}};
+              {1, 16}};
   for (const std::size_t i : order) {
     const BenchPoint& point = result.points[i];
     const ErrorMeasure& error = point.error.whole;
@@ -93,7 +93,7 @@ Html numbers_html(const BenchResult& result, std::size_t scene) {
       out += html("<p class=\"verdict\"><b>Left out:</b> {}, {}.</p>\n", config_name(point), point.left_out);
   }
   if (!names.empty()) out += html("<p class=\"verdict bad\"><b>Not finished:</b> {}.</p>\n", names);
-  return out;
+  return html("<div class=\"numbers\">\n{}</div>\n", out);
 }
 
 Html facts_html(const std::string& caption, const std::vector<Fact>& facts) {

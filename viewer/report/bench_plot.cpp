@@ -44,11 +44,11 @@ Mark mark_of(const BenchPoint& point, double error, const std::vector<std::strin
   mark.y = error;
   const auto at = std::find(series.begin(), series.end(), knob_value(point, "renderer"));
   mark.series = std::min(static_cast<std::size_t>(at - series.begin()), kMostSeries - 1);
-  mark.label = {mark_name(point)};
+  mark.name = mark_name(point);
   mark.words = words(point);
   if (!point.failures.empty()) {
     mark.state = MarkState::failed;
-    mark.label.push_back(point.failures.front());
+    mark.reason = point.failures.front();
   }
   return mark;
 }
@@ -175,7 +175,7 @@ std::vector<std::pair<ErrorKind, Scatter>> small_kind_scatters(const BenchResult
     plot.legend = false;
     plot.x_label = "time a frame in ms";
     plot.y_label = "RMSE";
-    for (Mark& mark : plot.marks) mark.label.resize(1);
+    for (Mark& mark : plot.marks) mark.reason.clear();
     plot.x_values = xs;
     plot.y_values = ys;
   }

@@ -9,13 +9,12 @@
 #include "viewer/report/embedded_picture.h"
 #include "viewer/report/highlights.h"
 #include "viewer/report/html.h"
+#include "viewer/report/lesson_html.h"
 
 namespace sidelight {
 namespace {
 
 using Picture = std::vector<glm::vec3>;
-
-constexpr std::size_t kMostLesson = 4000;  // bytes shown
 
 Html color_swatch(const glm::vec3& linear) {
   return html("<span class=\"swatch\" style=\"background:#{:02x}{:02x}{:02x}\"></span>",
@@ -44,20 +43,6 @@ std::array<Term, 3> terms(const Comparison& result) {
 
 std::string percent(std::uint64_t part, std::uint64_t whole) {
   return fmt::format("{:.1f} %", 100 * static_cast<double>(part) / static_cast<double>(whole));
-}
-
-// A blank line parts two paragraphs; other line breaks are those of the file, not of the page.
-Html lesson_html(std::string_view lesson) {
-  Html out;
-  for (std::size_t room = kMostLesson; !lesson.empty() && room > 0;) {
-    const std::size_t end = std::min(lesson.find("\n\n"), lesson.size());
-    const std::string_view paragraph = lesson.substr(0, end);
-    lesson.remove_prefix(std::min(end + 2, lesson.size()));
-    if (paragraph.find_first_not_of(" \t\r\n") == std::string_view::npos) continue;
-    out += html("<p class=\"lesson\" dir=\"auto\">{}</p>\n", escaped(paragraph, room));
-    room -= std::min(room, paragraph.size());
-  }
-  return out;
 }
 
 Html head(const CompareReport& report) {
@@ -147,8 +132,11 @@ more.)")};
       "The cause map: for each pixel that differs, its main cause",
       html(
           R"(<b>Cause map.</b>{}: the hue is the cause that weighs most, the brightness is how much the pictures differ.
-Black where they are equal in every bit.)",
-          legend)};
+Black where they are equal in every bit.{})",
+          legend,
+          result.spoiled > 0 || result.unexplained > 0
+              ? html(" White where they differ without a cause: unexplained, or spoiled by a fault on purpose.")
+              : Html{})};
   return html(R"(<section>
 <h2>What differs, and why</h2>
 {}<div class="columns">

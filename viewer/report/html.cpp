@@ -181,7 +181,7 @@ std::string page_html(std::string_view title, const Html& body) {
 </body>
 </html>
 )",
-              title, Html{std::string(kPlotStyle)}, Html{std::string(kPageStyle)}, body, Html{std::string(kPageScript)})
+              title, Html{plot_style()}, Html{std::string(kPageStyle)}, body, Html{std::string(kPageScript)})
       .markup;
 }
 

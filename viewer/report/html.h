@@ -103,10 +103,12 @@ Html table_html(const Table& table);
 // The whole file.
 std::string page_html(std::string_view title, const Html& body);
 
-// What page_html embeds (page_style.cpp, page_script.cpp). The style of plots, with the colours of all, serves SVG files
-// too.
-extern const std::string_view kPlotStyle;
+// What page_html embeds (page_style.cpp, page_script.cpp, plot_style.cpp): the style of plots has the colours of all.
+std::string plot_style();
 extern const std::string_view kPageStyle;
 extern const std::string_view kPageScript;
+
+// The style of plots for a file of its own, which may be drawn by what knows no variables of CSS: no colour is one.
+std::string plot_file_style();
 
 }  // namespace sidelight

@@ -1,50 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How a report looks: one column of text, pictures as wide as there is room, light or dark as the reader's system is.
-// Colours of text have a contrast of at least 4.5 to their ground, colours of curves one of at least 3.
+// Colours are those of plot_style.cpp.
 #include "viewer/report/html.h"
 
 namespace sidelight {
-
-const std::string_view kPlotStyle = R"css(
-:root {
-  color-scheme: light dark;
-  --paper: #fff; --ink: #1b1d22; --quiet: #575c66; --rule: #d5d8de; --panel: #f4f5f7;
-  --accent: #0b5cad; --on-accent: #fff; --bad: #a8201a; --beaten: #a0a4ac;
-  --c0: #0072b2; --c1: #c44e00; --c2: #00835f; --c3: #a2457f; --c4: #8a6100; --c5: #1b1d22;
-}
-@media (prefers-color-scheme: dark) {
-  :root {
-    --paper: #14161a; --ink: #e9ebef; --quiet: #a7adb8; --rule: #3a3f49; --panel: #1e2127;
-    --accent: #7cb8f5; --on-accent: #10131a; --bad: #ff8a80; --beaten: #6d737e;
-    --c0: #56b4e9; --c1: #ff8a3d; --c2: #2bc49a; --c3: #e59ac8; --c4: #e6b93c; --c5: #e9ebef;
-  }
-}
-svg { font: 13px system-ui, "Segoe UI", Arial, "DejaVu Sans", sans-serif; fill: var(--ink); overflow: hidden; }
-svg .grid { stroke: var(--rule); stroke-width: 1; fill: none; }
-svg .frame { stroke: var(--quiet); stroke-width: 1.2; fill: none; }
-svg .quiet { fill: var(--quiet); }
-svg .curve { fill: none; stroke-width: 2.2; stroke-linejoin: round; stroke-linecap: round; }
-svg .lobe { fill: var(--c0); fill-opacity: 0.18; stroke: var(--c0); stroke-width: 2; stroke-linejoin: round; }
-svg .c0 { stroke: var(--c0); } svg .c1 { stroke: var(--c1); } svg .c2 { stroke: var(--c2); }
-svg .c3 { stroke: var(--c3); } svg .c4 { stroke: var(--c4); } svg .c5 { stroke: var(--c5); }
-svg .paper { fill: var(--paper); }
-svg .floor { stroke: var(--quiet); stroke-width: 1; stroke-dasharray: 2 4; fill: none; }
-svg .staircase { stroke: var(--ink); stroke-width: 1.6; fill: none; stroke-linejoin: round; }
-svg .thread, svg .leader, svg .whisker { stroke: var(--quiet); stroke-width: 0.8; fill: none; }
-svg .thread { stroke-dasharray: 1 3; stroke-linecap: round; }
-svg .label { font-size: 12px; paint-order: stroke; stroke: var(--paper); stroke-width: 3px; stroke-linejoin: round; }
-svg .reason { fill: var(--bad); }
-svg .s0 { color: var(--c0); } svg .s1 { color: var(--c1); } svg .s2 { color: var(--c2); }
-svg .s3 { color: var(--c3); } svg .s4 { color: var(--c4); } svg .s5 { color: var(--c5); }
-svg .shape { fill: currentColor; stroke: var(--paper); stroke-width: 1; }
-svg .beaten .shape { fill: var(--beaten); }
-svg .failed .shape { fill: var(--paper); stroke: currentColor; stroke-width: 1.8; }
-svg .good .whisker { stroke: currentColor; stroke-width: 1.2; }
-svg .reach { fill: none; stroke: none; pointer-events: all; }
-svg .mark.shown .reach { stroke: currentColor; stroke-width: 1.5; }
-svg .mark:focus { outline: none; }
-svg .mark:focus .reach { stroke: var(--accent); stroke-width: 3; }
-)css";
 
 const std::string_view kPageStyle = R"css(
 * { box-sizing: border-box; }
@@ -73,6 +32,8 @@ code, kbd { font-family: ui-monospace, "Cascadia Mono", Menlo, Consolas, "DejaVu
 kbd { border: 1px solid; border-radius: 0.2rem; padding: 0 0.35em; opacity: 0.8; }
 pre { background: var(--panel); border: 1px solid var(--rule); border-radius: 0.4rem; padding: 0.8rem 1rem;
       margin: 0 0 1rem; white-space: pre-wrap; }
+pre.lesson { font-size: 1rem; }
+pre .quiet { user-select: none; }
 .formula { font: italic 1.35rem/1.5 "Iowan Old Style", Palatino, Georgia, "DejaVu Serif", serif; }
 
 figure { margin: 0; min-width: 0; }
@@ -89,6 +50,12 @@ th, td { padding: 0.35rem 1.6rem 0.35rem 0; border-bottom: 1px solid var(--rule)
          vertical-align: top; font-weight: 400; }
 thead th { color: var(--quiet); font-size: 0.92rem; }
 thead th:not(:first-child), td { text-align: right; padding-right: 0.4rem; padding-left: 1.2rem; }
+thead th, thead + tbody th, thead + tbody td { overflow-wrap: normal; }
+@media (max-width: 30rem) {
+  thead th, thead + tbody { font-size: 0.85rem; }
+  thead th, thead + tbody th { padding-right: 0; }
+  thead th:not(:first-child), thead + tbody td { padding-right: 0; padding-left: 0.5rem; }
+}
 .swatch { display: inline-block; width: 0.85em; height: 0.85em; margin-right: 0.5em; border-radius: 0.15em;
           border: 1px solid var(--quiet); vertical-align: -0.08em; }
 .scale { max-width: 46rem; margin-top: 0.8rem; }
@@ -143,7 +110,8 @@ button { border-radius: 0.4rem; }
 .steps.one li.shown { display: block; }
 .step { display: grid; gap: 1rem 1.5rem; grid-template-columns: minmax(0, 1fr) minmax(0, 2fr); }
 .step > :last-child img { width: min(100%, 60rem); }
-.terms figure { display: grid; gap: 0.8rem; grid-template-columns: minmax(0, 15rem) 1fr; margin-bottom: 0.8rem; }
+.terms figure { display: grid; gap: 0.8rem; grid-template-columns: minmax(0, 15rem) minmax(max-content, 1fr);
+                margin-bottom: 0.8rem; }
 .terms figcaption { margin: 0; align-self: end; }
 @media (max-width: 46rem) { .step { grid-template-columns: minmax(0, 1fr); } }
 
@@ -187,12 +155,20 @@ select { font: inherit; max-width: 100%; padding: 0.4rem 0.5rem; background: var
          border: 1px solid var(--rule); border-radius: 0.4rem; }
 .facts th { white-space: nowrap; }
 .facts td { text-align: left; }
+@page numbers { size: landscape; }
 @media print {
+  main { padding: 0; }
   .controls { display: none !important; }
   .steps.one li { display: block; }
-  h2, figure, li { break-inside: avoid; }
+  h2, p, figure, li, table { break-inside: avoid; }
+  h2, h3, h4, p:has(+ pre) { break-after: avoid; }
+  .numbers { page: numbers; }
   .wide { overflow: visible; }
-  .wide table { font-size: 0.6rem; }
+  .wide table { font-size: 0.6rem; break-inside: auto; }
+  .wide th, .wide td { font-size: inherit; padding-right: 0; }
+  .wide th, .wide td.words { white-space: normal; }
+  .wide thead th:not(:first-child), .wide td { padding-left: 0.35rem; }
+  th button::after { display: none; }
 }
 )css";
 

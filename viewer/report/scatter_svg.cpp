@@ -8,8 +8,8 @@
 #include <glm/common.hpp>
 #include <numeric>
 
-#include "common/utf8.h"
 #include "viewer/report/label_places.h"
+#include "viewer/report/label_text.h"
 #include "viewer/report/log_axis.h"
 
 namespace sidelight {
@@ -23,7 +23,6 @@ constexpr double kReach = 11;                         // of what takes the mouse
 constexpr double kLetterWidth = 7, kLineHeight = 14;  // of a label
 constexpr double kKeyLetterWidth = 7.2;               // of the legend, whose letters are larger
 constexpr double kHalfLetter = 4.5;                   // from the middle of a line of text to its foot
-constexpr std::size_t kLongestLine = 34;              // of a label, in letters
 
 // Where things stand in the drawing.
 struct Layout {
@@ -156,19 +155,27 @@ Html mark_html(const Mark& mark, const Layout& at) {
               escaped(mark.words, 600), low, high, kReach, shape(mark.series));
 }
 
-// As it is drawn: a code point is at most as wide as kLetterWidth in the plot's type, nearly always.
-std::string shortened(const std::string& line) {
-  std::size_t count = 0, i = 0;
-  for (; i < line.size() && count < kLongestLine; ++count)
-    i += std::max<std::size_t>(1, utf8_length(line, i));
-  return i < line.size() ? line.substr(0, i) + "…" : line;
-}
-double text_width(const std::string& line, double letter = kLetterWidth) {
-  return letter * static_cast<double>(utf8_count(line));
+using LabelLines = std::vector<std::string>;
+
+// The name and why it fails, else the name alone.
+std::vector<LabelLines> label_forms(const Mark& mark) {
+  std::vector<LabelLines> out;
+  if (mark.name.empty()) return out;
+  if (!mark.reason.empty()) {
+    LabelLines& lines = out.emplace_back(in_two_lines(mark.reason));
+    lines.insert(lines.begin(), shortened(mark.name));
+  }
+  out.push_back({shortened(mark.name)});
+  return out;
 }
 
-Html label_html(const Mark& mark, const std::vector<std::string>& lines, const LabelPlace& place,
-                const Layout& at) {
+glm::dvec2 size_of(const LabelLines& lines) {
+  double width = 0;
+  for (const std::string& line : lines) width = std::max(width, text_width(line, kLetterWidth));
+  return {width + 4, kLineHeight * static_cast<double>(lines.size())};
+}
+
+Html label_html(const Mark& mark, const LabelLines& lines, const LabelPlace& place, const Layout& at) {
   Html out;
   const glm::dvec2 p = at.at(mark);
   if (place.leader)
@@ -207,27 +214,19 @@ Html labels(const std::vector<Mark>& marks, const std::vector<glm::dvec2>& corne
     const glm::dvec2 low = glm::min(corners[k - 1], corners[k]), high = glm::max(corners[k - 1], corners[k]);
     steps.push_back({low.x - 1, low.y - 1, high.x + 1, high.y + 1});
   }
-  std::vector<LabelRequest> requests;  // all lines, else the first alone
-  std::vector<std::vector<std::string>> lines;
+  std::vector<LabelRequest> requests;
+  std::vector<std::vector<LabelLines>> forms;  // in the order of each request's sizes
   for (const std::size_t i : order) {
     LabelRequest& request = requests.emplace_back();
     request.mark = at.at(marks[i]);
-    lines.emplace_back();
-    glm::dvec2 size(0);
-    for (const std::string& line : marks[i].label) {
-      lines.back().push_back(shortened(line));
-      size = {std::max(size.x, text_width(lines.back().back()) + 4), size.y + kLineHeight};
-      request.sizes.insert(request.sizes.begin(), size);
-    }
+    forms.push_back(label_forms(marks[i]));
+    for (const LabelLines& lines : forms.back()) request.sizes.push_back(size_of(lines));
   }
   const Rectangle frame{at.left + 2, at.top, at.right, at.lowest()};
   const std::vector<std::optional<LabelPlace>> places = place_labels(requests, taken, steps, frame);
   Html out;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    if (!places[k]) continue;
-    lines[k].resize(lines[k].size() - places[k]->form);
-    out += label_html(marks[order[k]], lines[k], *places[k], at);
-  }
+  for (std::size_t k = 0; k < order.size(); ++k)
+    if (places[k]) out += label_html(marks[order[k]], forms[k][places[k]->form], *places[k], at);
   return out;
 }
 
@@ -290,7 +289,7 @@ std::string svg_file(const Scatter& plot) {
 <rect class="paper" width="100%" height="100%"/>
 {4}</svg>
 )",
-             plot.width, plot.height, escaped(plot.title, 600), Html{std::string(kPlotStyle)}, drawing(plot))
+             plot.width, plot.height, escaped(plot.title, 600), Html{plot_file_style()}, drawing(plot))
       .markup;
 }
 

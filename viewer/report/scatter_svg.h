@@ -18,9 +18,9 @@ struct Mark {
   double y = 0;                         // >= 0
   std::size_t series = 0;
   MarkState state = MarkState::good;
-  std::vector<std::string> label;  // lines beside it, left out where there is no room
-  std::string words;               // all about it, shown under the mouse
-  Html attributes;                 // further ones of its element, for the page's script
+  std::string name, reason;  // beside it, where there is room for both or for the name; may be empty
+  std::string words;         // all about it, shown under the mouse
+  Html attributes;           // further ones of its element, for the page's script
 };
 
 struct Scatter {
