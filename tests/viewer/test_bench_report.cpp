@@ -118,7 +118,7 @@ TEST_CASE("bench report: SVG files stand alone and have harmless names") {
     CHECK(contains(text, "prefers-color-scheme: dark"));
     CHECK(contains(text, "fill: #1b1d22"));
     CHECK_FALSE(contains(text, "var("));  // nor for programs that know no variables of CSS
-    CHECK(count(text, "://") == 1);  // that name alone
+    CHECK(count(text, "://") == 1);       // that name alone
   }
   CHECK(names.size() == 12);
   for (const char* name : {"a-total.svg", "a-2-total.svg", "a-sampling.svg", "b----n-scene-model.svg"})

@@ -50,8 +50,8 @@ Html cost_table(const BenchResult& result, const std::vector<std::size_t>& order
   Table table{"Costs of a frame", {"configuration"}, {}, true};
   Html words;
   if (result.timed) {
-    table.columns.insert(table.columns.end(),
-                         {"#", "frame ms", "as fast as", "processor ms", "build ms", "runs", "MB a frame", "MB to build"});
+    table.columns.insert(table.columns.end(), {"#", "frame ms", "as fast as", "processor ms", "build ms",
+                                               "runs", "MB a frame", "MB to build"});
     words = html(
         R"(<p>Times are medians (least-greatest), fastest first. Two configurations differ in time only where their ranges do
 not overlap: those whose numbers stand under “as fast as” do not differ from this one. MB: what the program came to hold
@@ -63,11 +63,11 @@ more than before, at most, during a frame and while the scene was prepared.</p>
     const BenchPoint& point = result.points[order[k]];
     std::vector<Html> row{html("{}", config_name(point))};
     if (result.timed)
-      row.insert(row.end(), {html("{}", k + 1), html("{}", spread_words(point.frame_ms)),
-                             html("{}", same_time_as(result, order, k)),
-                             html("{}", spread_words(point.cpu_ms)), html("{}", spread_words(point.build_ms)),
-                             html("{}", point.runs), html("{:.1f}", point.frame_memory_mb),
-                             html("{:.1f}", point.build_memory_mb)});
+      row.insert(row.end(),
+                 {html("{}", k + 1), html("{}", spread_words(point.frame_ms)),
+                  html("{}", same_time_as(result, order, k)), html("{}", spread_words(point.cpu_ms)),
+                  html("{}", spread_words(point.build_ms)), html("{}", point.runs),
+                  html("{:.1f}", point.frame_memory_mb), html("{:.1f}", point.build_memory_mb)});
     row.insert(row.end(), {number(point.rays), number(point.fragments), number(point.tests),
                            html("{:.1f}", point.tests_per_ray), html("{:.1f}", point.nodes_per_ray)});
     table.rows.push_back(row);

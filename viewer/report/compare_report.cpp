@@ -135,7 +135,8 @@ more.)")};
 Black where they are equal in every bit.{})",
           legend,
           result.spoiled > 0 || result.unexplained > 0
-              ? html(" White where they differ without a cause: unexplained, or spoiled by a fault on purpose.")
+              ? html(" White where they differ without a cause: unexplained, or spoiled by a fault on "
+                     "purpose.")
               : Html{})};
   return html(R"(<section>
 <h2>What differs, and why</h2>

@@ -47,7 +47,8 @@ Html choosers(const PairChoices& choices) {
     for (std::size_t i = 0; i < choices.all.size(); ++i)
       options += html("<option value=\"{}\"{}>{}</option>\n", choices.all[i].id,
                       Html{i == chosen ? " selected" : ""}, choices.all[i].label);
-    out += html("<label class=\"choose\">{}: <select data-side=\"{}\">\n{}</select></label>\n", side, side, options);
+    out += html("<label class=\"choose\">{}: <select data-side=\"{}\">\n{}</select></label>\n", side, side,
+                options);
   }
   return out;
 }
@@ -91,8 +92,9 @@ std::string grouped(std::uint64_t number) {
 Html image_html(const Figure& figure) {
   const int factor = enlargement(figure.image);
   return html(R"(<img{} src="data:image/png;base64,{}" width="{}" height="{}" alt="{}"{}>)",
-              figure.id.empty() ? Html{} : html(" id=\"{}\"", figure.id), Html{base64(encode_png(figure.image))},
-              factor * figure.image.width, factor * figure.image.height, escaped(figure.alt, 1000),
+              figure.id.empty() ? Html{} : html(" id=\"{}\"", figure.id),
+              Html{base64(encode_png(figure.image))}, factor * figure.image.width,
+              factor * figure.image.height, escaped(figure.alt, 1000),
               Html{factor > 1 ? " class=\"enlarged\"" : ""});
 }
 
@@ -144,7 +146,8 @@ Html steps_html(std::string_view name, const std::vector<StepPage>& pages) {
 Html table_html(const Table& table) {
   Html head, rows;
   const auto style = [&](std::size_t column) {
-    const bool words = std::find(table.of_words.begin(), table.of_words.end(), column) != table.of_words.end();
+    const bool words =
+        std::find(table.of_words.begin(), table.of_words.end(), column) != table.of_words.end();
     return Html{words ? " class=\"words\"" : ""};
   };
   for (std::size_t c = 0; c < table.columns.size(); ++c)
@@ -158,7 +161,8 @@ Html table_html(const Table& table) {
   const Html whole = html("<table{}><caption>{}</caption>\n{}<tbody>\n{}</tbody></table>\n",
                           Html{table.sortable ? " class=\"sortable\"" : ""}, table.caption, head, rows);
   if (!table.sortable) return whole;
-  return html("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\">\n{}</div>\n", table.caption, whole);
+  return html("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\">\n{}</div>\n",
+              table.caption, whole);
 }
 
 // The policy forbids every request, whatever the page holds.

@@ -79,7 +79,8 @@ struct PairChoices {
 };
 // Two pictures of one size: beside each other, under a slider, or flipped in place. Without JavaScript: beside each
 // other. `name`: of this pair within the page, a word.
-Html pair_html(std::string_view name, const Figure& left, const Figure& right, const PairChoices& choices = {});
+Html pair_html(std::string_view name, const Figure& left, const Figure& right,
+               const PairChoices& choices = {});
 
 // Pages of which JavaScript shows one at a time, so that pictures in the same place flip; without it all are shown in
 // their order. `name`: of this list within the page, a word. Labels are the text of the buttons.
