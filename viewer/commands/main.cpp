@@ -119,8 +119,8 @@ int run(int argc, char** argv) {
   } catch (const UsageError& error) {
     return complain(kUsage, error.what());
   } catch (const InputError& error) {
-    std::fputs((error.what() + std::string("\n")).c_str(),
-               stderr);  // begins with file:line:column, where editors look for it
+    // Begins with file:line:column, where editors look for it.
+    std::fputs((error.what() + std::string("\n")).c_str(), stderr);
     return kInput;
   } catch (const std::bad_alloc&) {
     return complain(kInput, "not enough memory for this scene and size");

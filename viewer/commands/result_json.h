@@ -14,8 +14,8 @@ namespace sidelight {
 // The key crop: [x0, y0, x1, y1], half-open, where `part` is not all of a picture of this size; else there is none.
 void add_crop(nlohmann::ordered_json& json, const Rect& part, int full_width, int full_height);
 
-// {max: {value, x, y, channel}, mean, rms, psnr}; x and y count in the whole picture, also of a crop; channel is "R", "G" or "B", psnr null where the 8-bit pictures are
-// identical.
+// {max: {value, x, y, channel}, mean, rms, psnr}; x and y count in the whole picture, also of a crop; channel is "R", "G"
+// or "B"; psnr is null where the 8-bit pictures are identical.
 nlohmann::ordered_json metrics_json(const Metrics& metrics);
 
 // To the file, whole or not at all, or to standard output for "-". Throws OutputError.

@@ -24,8 +24,8 @@ struct CompareReport {
   std::string explain_command;  // for the pixel of greatest difference; what to type, as view_command
   std::string view_command;
   std::optional<Times> raster_times, traced_times;
-  std::vector<std::pair<std::string, std::uint64_t>>
-      faults;  // put in on purpose: which, and the pixels that it spoils
+  // Put in on purpose: which, and the pixels that it spoils.
+  std::vector<std::pair<std::string, std::uint64_t>> faults;
 };
 
 // The page. Pictures of more than 2^22 pixels are embedded reduced by a whole factor, which the page says. Equal

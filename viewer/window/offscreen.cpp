@@ -147,8 +147,8 @@ extern "C" const char* __lsan_default_options() { return "print_suppressions=0";
 #endif
 #ifdef __SANITIZE_THREAD__
 extern "C" const char* __tsan_default_suppressions() {
-  return "race:libOSMesa\nrace:libLLVM\ndeadlock:libOSMesa\ndeadlock:libLLVM\ncalled_from_lib:libOSMesa.so."
-         "8\n";
+  return "race:libOSMesa\nrace:libLLVM\ndeadlock:libOSMesa\ndeadlock:libLLVM\n"
+         "called_from_lib:libOSMesa.so.8\n";
 }
 extern "C" const char* __tsan_default_options() { return "print_suppressions=0"; }
 #endif
