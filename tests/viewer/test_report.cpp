@@ -130,11 +130,11 @@ TEST_CASE("report: a lesson's commands stay lines, its other lines run together"
   CHECK(
       lesson("One\nparagraph.\n \nAnother.") ==
       "<p class=\"lesson\" dir=\"auto\">One paragraph.</p>\n<p class=\"lesson\" dir=\"auto\">Another.</p>\n");
-  CHECK(lesson("Try\n  sidelight view <a>  its remark\r\nsidelight help\nas sidelight says.") ==
+  CHECK(lesson("Try\n  sidelight view <a>  its remark\r\n\tsidelight help\nsidelight says so.") ==
         "<p class=\"lesson\" dir=\"auto\">Try</p>\n"
         "<pre class=\"lesson\"><code>sidelight view &lt;a&gt;<span class=\"quiet\">  its remark</span>\n"
-        "sidelight help</code></pre>\n<p class=\"lesson\" dir=\"auto\">as sidelight says.</p>\n");
-  for (const std::string line : {"sidelight x\n", "line\n\n"}) {
+        "sidelight help</code></pre>\n<p class=\"lesson\" dir=\"auto\">sidelight says so.</p>\n");
+  for (const std::string line : {" sidelight x\n", "line\n\n"}) {
     std::string endless;
     for (int i = 0; i < 4000; ++i) endless += line;
     CHECK(lesson(endless).size() < 40'000);  // of 4000 bytes with their markup

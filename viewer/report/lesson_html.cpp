@@ -18,9 +18,11 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
+// A command stands on an indented line; prose that begins with the program's name does not.
 Line kind_of(std::string_view line) {
-  line = trimmed(line);
-  return line.empty() ? Line::blank : line.starts_with("sidelight ") ? Line::command : Line::prose;
+  const std::string_view words = trimmed(line);
+  if (words.empty()) return Line::blank;
+  return words.starts_with("sidelight ") && words.data() != line.data() ? Line::command : Line::prose;
 }
 
 // How long the lines of one kind are that a text begins with.

@@ -7,9 +7,9 @@
 
 namespace sidelight {
 
-// A scene's lesson as paragraphs, which blank lines part; other line breaks are those of the file, not of the page. A line
-// that begins with "sidelight ", behind blanks or not, is a command and stays a line; what stands behind two blanks in it
-// is a remark. Cut after 4000 bytes.
+// A scene's lesson as paragraphs, which blank lines part; other line breaks are those of the file, not of the page. An
+// indented line that begins with "sidelight " is a command and stays a line; what stands behind two blanks in it is a
+// remark. Cut after 4000 bytes.
 Html lesson_html(std::string_view lesson);
 
 }  // namespace sidelight
