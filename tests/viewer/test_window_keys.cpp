@@ -11,13 +11,14 @@ using namespace sidelight::test;
 
 namespace {
 
-// A session in a window off screen; each key is followed by the frames that the window would draw.
-void with_window(const std::function<void(Session&, const std::function<void(const char*)>&)>& body) {
+constexpr glm::ivec2 kWindow{1000, 700};
+
+// A session in a window off screen; `body` calls the function it is given for the frames that the window would draw.
+void with_window(const std::function<void(Session&, Frames&, const std::function<void()>&)>& body) {
   const TemporaryFolder folder;
   write_bytes(folder / "scene.toml", kGoodScene);
   const SceneOpener open = opener(48, 36);
   Session session(open_state(folder / "scene.toml", open), open);
-  constexpr glm::ivec2 kWindow{1000, 700};
   draw_offscreen(kWindow.x, kWindow.y, [&](Canvas& canvas) {
     Frames frames(canvas, session);
     const auto draw = [&] {
@@ -25,6 +26,13 @@ void with_window(const std::function<void(Session&, const std::function<void(con
         if (frames.take_pictures() | frames.draw(kWindow, 1)) left = 3;
     };
     draw();
+    body(session, frames, draw);
+  });
+}
+
+// The same for keys: each is followed by its frames.
+void with_keys(const std::function<void(Session&, const std::function<void(const char*)>&)>& body) {
+  with_window([&](Session& session, Frames& frames, const std::function<void()>& draw) {
     body(session, [&](const char* key) {
       frames.press(key, kPanel);
       draw();
@@ -34,8 +42,23 @@ void with_window(const std::function<void(Session&, const std::function<void(con
 
 }  // namespace
 
+TEST_CASE("mouse: a click between two frames presses its button") {
+  with_window([](Session& session, Frames& frames, const std::function<void()>& draw) {
+    session.set_mode(Mode::swipe);
+    draw();
+    const Rect buttons = frames.layout().panels.footer;
+    const glm::dvec2 first(buttons.x0 + 20, buttons.y0 + 15);
+    frames.set_pointer(first, false, 0);
+    draw();
+    frames.set_pointer(first, true, 0);
+    frames.set_pointer(first, false, 0);
+    draw();
+    CHECK(session.state().mode == Mode::side_by_side);
+  });
+}
+
 TEST_CASE("keyboard: Tab gives the controls the arrows and Space, Escape gives them back") {
-  with_window([](Session& session, const std::function<void(const char*)>& press) {
+  with_keys([](Session& session, const std::function<void(const char*)>& press) {
     const auto eye = session.state().camera.eye;
     press("c");
     press("Tab");
@@ -73,7 +96,7 @@ TEST_CASE("keyboard: Tab gives the controls the arrows and Space, Escape gives t
 }
 
 TEST_CASE("keyboard: Tab goes round the open panels") {
-  with_window([](Session& session, const std::function<void(const char*)>& press) {
+  with_keys([](Session& session, const std::function<void(const char*)>& press) {
     press("Tab");  // none is open
     CHECK(key_target(session.state()) == KeyTarget::pictures);
     press("l");

@@ -141,7 +141,8 @@ void Canvas::set_pointer(glm::dvec2 position, bool left_down, double wheel) {
   const CurrentContext current(context_.get());
   ImGuiIO& io = ImGui::GetIO();
   io.MousePos = {static_cast<float>(position.x), static_cast<float>(position.y)};
-  io.MouseDown[0] = left_down;
+  left_down_ = left_down;
+  io.MouseDown[0] |= left_down;
   io.MouseWheel += static_cast<float>(wheel);
 }
 
@@ -165,6 +166,7 @@ void Canvas::draw(int width, int height, const std::function<void()>& contents) 
   ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   move_keys();
   ImGui::NewFrame();
+  ImGui::GetIO().MouseDown[0] = left_down_;
   try {
     contents();
   } catch (...) {

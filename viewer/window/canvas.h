@@ -51,7 +51,8 @@ class Canvas {
   // Drops all pictures; not within draw.
   void clear_pictures() { pictures_.clear(); }
 
-  // What the mouse did since the last frame, for the widgets: its place in device pixels, the left button, the wheel.
+  // What the mouse did since the last frame, for the widgets: its place in device pixels, the left button, the wheel. A
+  // press that ends before the next frame is down in that frame, and up in the one after.
   void set_pointer(glm::dvec2 position, bool left_down, double wheel);
   // The widgets of the last frame want the mouse: it is over one, or one is held.
   bool wants_pointer() const { return wants_pointer_; }
@@ -85,6 +86,7 @@ class Canvas {
   std::vector<GlObject> pictures_;
   std::unique_ptr<ImGuiContext, DestroyContext> context_;
   bool wants_pointer_ = false;
+  bool left_down_ = false;        // now; ImGui's state is as the next frame shall see it
   std::deque<std::string> keys_;  // the first one may be down
   bool key_down_ = false;
 };

@@ -41,7 +41,8 @@ bool Frames::take_pictures() {
 
 // Smaller copies of each picture take as long as all the rest: they are made once a picture is shown smaller than it is.
 void Frames::upload() {
-  const Uploaded wanted = session_.state().view.zoom < 1 ? Uploaded::with_smaller_copies : Uploaded::as_they_are;
+  const Uploaded wanted =
+      session_.state().view.zoom < 1 ? Uploaded::with_smaller_copies : Uploaded::as_they_are;
   if (uploaded_ >= wanted) return;
   const double start = wall_ms();
   canvas_.clear_pictures();
@@ -55,6 +56,10 @@ void Frames::upload() {
 void Frames::press(const std::string& key, const Rect& panel) {
   const bool to_widgets = key_target(session_.state()) != KeyTarget::pictures && canvas_.press_key(key);
   if (!to_widgets) session_.press(key, panel);
+}
+
+void Frames::set_pointer(glm::dvec2 position, bool left_down, double wheel) {
+  canvas_.set_pointer(position, left_down, wheel);
 }
 
 bool Frames::draw(glm::ivec2 size, double content_scale) {

@@ -54,6 +54,8 @@ class Frames {
 
   // A key goes to the panel that Tab chose, if its widgets know it, else to the session.
   void press(const std::string& key, const Rect& panel);
+  // What the mouse did since the last frame, as Canvas wants it.
+  void set_pointer(glm::dvec2 position, bool left_down, double wheel);
 
   const FrameContents& contents() const { return contents_; }
   const WindowLayout& layout() const { return layout_; }

@@ -134,7 +134,7 @@ class SessionWindow {
   void press(const std::string& key) { frames_.press(key, panel()); }
 
   void scroll(double amount) {
-    if (canvas_.wants_pointer()) return canvas_.set_pointer(cursor_, widget_button_, amount);
+    if (canvas_.wants_pointer()) return frames_.set_pointer(cursor_, widget_button_, amount);
     scrolled_ += amount;  // touchpads scroll in parts of a step
     const double steps = std::trunc(scrolled_);
     scrolled_ -= steps;
@@ -162,13 +162,13 @@ class SessionWindow {
       if (left) widget_button_ = false;
       held_ = -1;
     }
-    canvas_.set_pointer(cursor_, widget_button_, 0);
+    frames_.set_pointer(cursor_, widget_button_, 0);
   }
 
   void move_cursor(glm::dvec2 window_position) {
     const glm::dvec2 position = window_position * pixel_ratio(), by = position - cursor_;
     cursor_ = position;
-    canvas_.set_pointer(cursor_, widget_button_, 0);
+    frames_.set_pointer(cursor_, widget_button_, 0);
     if (held_ >= 0 && glm::distance(cursor_, pressed_at_) > kClickReach * canvas_.scale()) dragged_ = true;
     if (held_ >= 0 && dragged_) drag(by);
     point_at_picture();
