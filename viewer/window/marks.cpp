@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 #include "viewer/window/camera_moves.h"
 #include "viewer/window/canvas.h"
@@ -23,14 +24,19 @@ constexpr double kNumbersZoom = 48;
 
 struct OnePanel {
   const ShownPanel* shown;
-  Rect box;
+  Rect box;   // the picture is placed by
+  Rect seen;  // of it
 };
 
 std::vector<OnePanel> panels_in_place(const WindowContents& contents, const WindowLayout& layout) {
   const auto& panels = contents.shown.panels;
-  if (panels.size() == 1 || contents.shown.swipe) return {{&panels.front(), layout.panels.left}};
-  const std::size_t first = contents.state.view.flipped ? 1 : 0;
-  return {{&panels[first], layout.panels.left}, {&panels[1 - first], layout.panels.right}};
+  const auto& [left, right] = std::tie(layout.panels.left, layout.panels.right);
+  if (panels.size() == 1) return {{&panels.front(), left, left}};
+  const ShownPanel *first = &panels[0], *second = &panels[1];
+  if (contents.state.view.flipped) std::swap(first, second);
+  if (!contents.shown.swipe) return {{first, left, left}, {second, right, right}};
+  const auto [before, after] = swipe_halves(contents.state, left);
+  return {{first, left, before}, {second, left, after}};
 }
 
 bool is_dark(const Image8& image, glm::ivec2 at) {
@@ -53,8 +59,8 @@ void draw_numbers(const Canvas& canvas, ImDrawList& list, const WindowContents& 
   const auto bound = [&](double edge, double from, int limit) {
     return std::clamp(static_cast<int>(std::floor((edge - from) / view.zoom)), 0, limit - 1);
   };
-  for (int y = bound(panel.box.y0, origin.y, size.y); y <= bound(panel.box.y1, origin.y, size.y); ++y)
-    for (int x = bound(panel.box.x0, origin.x, size.x); x <= bound(panel.box.x1, origin.x, size.x); ++x) {
+  for (int y = bound(panel.seen.y0, origin.y, size.y); y <= bound(panel.seen.y1, origin.y, size.y); ++y)
+    for (int x = bound(panel.seen.x0, origin.x, size.x); x <= bound(panel.seen.x1, origin.x, size.x); ++x) {
       const std::vector<std::string> lines = panel.shown->numbers({x + part.x0, y + part.y0});
       const ImU32 color = is_dark(image, {x, y}) ? IM_COL32(255, 255, 255, 230) : IM_COL32(0, 0, 0, 230);
       const glm::dvec2 corner = origin + view.zoom * glm::dvec2(x, y) + 0.08 * view.zoom;
@@ -128,12 +134,13 @@ void draw_marks(const Canvas& canvas, const WindowContents& contents, const Wind
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const View& view = contents.state.view;
   for (const OnePanel& panel : panels_in_place(contents, layout)) {
-    if (panel.box.width() <= 0 || panel.box.height() <= 0) continue;
-    const glm::dvec2 low = glm::max(picture_origin(view, panel.box), glm::dvec2(panel.box.x0, panel.box.y0));
+    if (panel.seen.width() <= 0 || panel.seen.height() <= 0) continue;
+    const glm::dvec2 low =
+        glm::max(picture_origin(view, panel.box), glm::dvec2(panel.seen.x0, panel.seen.y0));
     const glm::dvec2 high =
         picture_origin(view, panel.box) + view.zoom * glm::dvec2(picture_size(contents.state));
-    list.PushClipRect(point(low), point(glm::min(high, glm::dvec2(panel.box.x1, panel.box.y1))));
-    if (!contents.shown.swipe) draw_numbers(canvas, list, contents, panel);
+    list.PushClipRect(point(low), point(glm::min(high, glm::dvec2(panel.seen.x1, panel.seen.y1))));
+    draw_numbers(canvas, list, contents, panel);
     draw_rays(canvas, list, contents, panel.box);
     draw_inspected(canvas, list, contents, panel.box);
     draw_cursor(canvas, list, contents, panel.box);

@@ -32,12 +32,17 @@ bool one_panel(const WindowState& state) {
   return layer && !both_make(*layer);
 }
 
-// A swipe's halves: the picture left of the divider is the first panel's.
 Rect left_of(const Rect& panel, int x) {
   return {panel.x0, panel.y0, std::clamp(x, panel.x0, panel.x1), panel.y1};
 }
 Rect right_of(const Rect& panel, int x) {
   return {std::clamp(x, panel.x0, panel.x1), panel.y0, panel.x1, panel.y1};
+}
+
+// Where the divider of a swipe stands, perhaps beside the panel.
+int swipe_divider(const WindowState& state, const Rect& panel) {
+  const double width = picture_size(state).x * state.view.zoom;
+  return static_cast<int>(std::lround(picture_origin(state.view, panel).x + state.swipe * width));
 }
 
 // draw_picture places by its panel, so the halves are cut out by clipping.
@@ -54,11 +59,11 @@ void draw_swipe(const Canvas& canvas, ImDrawList& list, const WindowContents& co
   const WindowState& state = contents.state;
   const Rect& panel = layout.left;
   const glm::ivec2 size = picture_size(state);
-  const double from = picture_origin(state.view, panel).x;
-  const int divider = static_cast<int>(std::lround(from + state.swipe * size.x * state.view.zoom));
+  const int divider = swipe_divider(state, panel);
+  const auto [before, after] = swipe_halves(state, panel);
   const std::size_t first = state.view.flipped ? 1 : 0;
-  draw_clipped(list, contents.textures[first], size, state.view, panel, left_of(panel, divider));
-  draw_clipped(list, contents.textures[1 - first], size, state.view, panel, right_of(panel, divider));
+  draw_clipped(list, contents.textures[first], size, state.view, panel, before);
+  draw_clipped(list, contents.textures[1 - first], size, state.view, panel, after);
   if (divider < panel.x0 || divider > panel.x1) return;
   const double half = 2 * canvas.scale(), grip = 9 * canvas.scale(), y = (panel.y0 + panel.y1) / 2.0;
   const double top = picture_origin(state.view, panel).y, bottom = top + size.y * state.view.zoom;
@@ -179,6 +184,11 @@ WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double sca
   if (one_panel(state)) out.panels = joined(out.panels);
   if (state.help) out.help = {size.x / 24, size.y / 24, size.x - size.x / 24, size.y - size.y / 24};
   return out;
+}
+
+std::pair<Rect, Rect> swipe_halves(const WindowState& state, const Rect& panel) {
+  const int divider = swipe_divider(state, panel);
+  return {left_of(panel, divider), right_of(panel, divider)};
 }
 
 int panel_at(const WindowLayout& layout, glm::dvec2 point) {

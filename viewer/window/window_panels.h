@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "viewer/window/inspection.h"
@@ -24,6 +25,10 @@ struct WindowLayout {
   Rect legend, slow, inspector, lesson, controls, help;
 };
 WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double scale);
+
+// The parts of the one panel of a swipe that show the left picture and the right one; where the divider stands beside the
+// panel, one of them is empty.
+std::pair<Rect, Rect> swipe_halves(const WindowState& state, const Rect& panel);
 
 struct WindowContents {
   const WindowState& state;
