@@ -80,7 +80,7 @@ constexpr auto kLooking = std::to_array<KeyHelp>({
     {"Space", "swap the two; next term of the ledger"},
     {"wheel + -", "zoom about the cursor"},
     {"right drag", "move the pictures"},
-    {"0", "the whole picture"},
+    {"0, Home", "the whole picture"},
 });
 constexpr auto kMoving = std::to_array<KeyHelp>({
     {"drag, arrows", "orbit"},
@@ -103,7 +103,7 @@ constexpr auto kTeaching = std::to_array<KeyHelp>({
     {"o", "slow motion"},
     {"k j", "  more, fewer"},
     {"t", "text size"},
-    {"h", "help"},
+    {"h ? F1", "help"},
     {"Esc", "back, then close"},
     {"q", "close"},
 });
