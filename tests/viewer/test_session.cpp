@@ -187,16 +187,26 @@ TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and t
   CHECK_FALSE(session.watch());  // told once
   check_headless(session);
 
-  session.press("Left", kPanel);
+  for (const char* key : {"Left", "f", "a"}) session.press(key, kPanel);
+  Faults faults;
+  faults.tessellate = 8;
+  session.set_faults(faults);
   const glm::dvec3 eye = session.state().camera.eye;
-  std::string text = kGoodScene;
+  std::string text = "[trace]\ndepth = 3\n" + kGoodScene;
   text.replace(text.find("radius = 1"), 10, "radius = 2");
   save_later(open.file, text);
   CHECK(session.watch());
   CHECK(session.state().notice.text == "");
   CHECK(session.state().scene->spheres[0].radius == 2);
-  CHECK(session.state().camera.eye == eye);  // the user's
+  CHECK(session.state().scene->trace.depth == 3);
+  CHECK(session.state().camera.eye == eye);  // the user's, as what follows
+  CHECK_FALSE(session.state().scene->trace.shadows);
+  CHECK(session.state().n == 2);
+  CHECK(session.state().faults == faults);
   check_headless(session);
+  session.press("z", kPanel);
+  CHECK(session.state().scene->trace.shadows);
+  CHECK_FALSE(session.state().faults.any());
 
   std::filesystem::remove(open.file);
   CHECK_FALSE(session.watch());

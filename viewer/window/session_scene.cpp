@@ -10,19 +10,24 @@
 namespace sidelight {
 namespace {
 
-void use_scene(WindowState& state, std::shared_ptr<const Scene> scene) {
+void use_changed(WindowState& state, std::shared_ptr<const Scene> scene) {
   state.drawn = state.faults.tessellate
                     ? std::make_shared<const Scene>(tessellated(*scene, *state.faults.tessellate))
                     : scene;
   state.scene = std::move(scene);
 }
 
+void use_untouched(WindowState& state, const Scene& scene) {
+  state.untouched = std::make_shared<const Scene>(scene);
+  use_changed(state, state.untouched);
+  state.camera = scene.camera;
+}
+
 // What was opened, untouched.
 void start_over(WindowState& state) {
   state.faults = state.opened.faults;
   state.n = state.opened.n;
-  use_scene(state, std::make_shared<const Scene>(state.opened.scene));
-  state.camera = state.scene->camera;
+  use_untouched(state, state.opened.scene);
   state.objects = static_cast<int>(state.drawn->objects.size());
   state.rows = state.scene->height;
 }
@@ -36,6 +41,24 @@ std::vector<FileStamp> stamps_of(const std::vector<std::string>& files) {
     out.push_back({file, gone ? FileStamp().time : time, size});
   }
   return out;
+}
+
+// After the file was read again: the camera, samples, faults and the tracer's switches stay as the user left them; all
+// else is the file's.
+void keep_changes(WindowState& state, const WindowState& before) {
+  if (camera_moved(before)) state.camera = before.camera;
+  if (before.n != before.opened.n) state.n = before.n;
+  if (before.faults != before.opened.faults) state.faults = before.faults;
+  auto scene = std::make_shared<Scene>(*state.untouched);
+  const auto keep = [&](auto TraceSettings::*field) {
+    const auto shown = before.scene->trace.*field;
+    if (shown != before.untouched->trace.*field) scene->trace.*field = shown;
+  };
+  keep(&TraceSettings::depth);
+  keep(&TraceSettings::shadows);
+  keep(&TraceSettings::reflection);
+  keep(&TraceSettings::refraction);
+  use_changed(state, std::move(scene));
 }
 
 bool inside(const Scene& scene, glm::ivec2 pixel) { return pixel.x < scene.width && pixel.y < scene.height; }
@@ -60,8 +83,7 @@ WindowState open_state(const std::string& file, const SceneOpener& open) {
 void reveal_step(WindowState& state, int number, const SceneOpener& open) {
   const Step step = state.opened.scene.steps.at(static_cast<std::size_t>(number));
   const OpenedScene opened = open(state.file, settings_of(step));
-  use_scene(state, std::make_shared<const Scene>(opened.scene));
-  state.camera = state.scene->camera;
+  use_untouched(state, opened.scene);
   state.step = number;
   state.revealed = true;
   state.lesson = true;
@@ -93,7 +115,7 @@ void Session::edit(const std::function<void(Scene&)>& change) {
   const bool done = try_to([&] {
     auto scene = std::make_shared<Scene>(*state_.scene);
     change(*scene);
-    use_scene(state_, std::move(scene));
+    use_changed(state_, std::move(scene));
   });
   if (done) redraw();
 }
@@ -102,7 +124,7 @@ void Session::set_faults(const Faults& faults) {
   if (faults == state_.faults) return;
   const bool done = try_to([&] {
     state_.faults = faults;
-    use_scene(state_, state_.scene);
+    use_changed(state_, state_.scene);
   });
   if (done) redraw();
 }
@@ -153,7 +175,7 @@ bool Session::watch() {
   // Gone: an editor is about to replace it, unless the scene was saved anew and may do without.
   if (now.front() == stamps_.front() && std::any_of(now.begin(), now.end(), gone)) return false;
   stamps_ = now;
-  // The view, the mode and the step stay; the camera too, if the user moved it and the file did not.
+  // The view, the mode and the step stay, and what keys and mouse changed.
   const bool loaded = try_to([&] {
     const WindowState before = state_;
     state_.opened = open_(state_.file, {});
@@ -163,7 +185,7 @@ bool Session::watch() {
     if (state_.step >= steps) state_.step = -1, state_.revealed = false;
     state_.mode = before.mode;
     state_.ledger_term = before.ledger_term;
-    if (camera_moved(before)) state_.camera = before.camera;
+    keep_changes(state_, before);
     if (state_.inspected && !inside(*state_.scene, *state_.inspected)) state_.inspected.reset();
     state_.notice = {};
   });

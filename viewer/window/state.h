@@ -19,7 +19,7 @@ namespace sidelight {
 
 // A scene as its file and the command line say it, before anything was touched.
 struct OpenedScene {
-  Scene scene;  // without the faults
+  Scene scene;                     // without the faults
   std::vector<std::string> files;  // it was read from: its own, then those of its meshes
   Faults faults;
   int n = 1;              // samples per pixel edge
@@ -41,8 +41,9 @@ struct WindowState {
   OpenedScene opened;
   // With the lesson's step and all changes; replaced, never changed, since the worker reads it.
   std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const Scene> drawn;  // the same, tessellated if that fault is on
-  CameraSettings camera;               // moves on its own, so that moving it builds nothing
+  std::shared_ptr<const Scene> untouched;  // with the step, without the changes
+  std::shared_ptr<const Scene> drawn;      // the same, tessellated if that fault is on
+  CameraSettings camera;                   // moves on its own, so that moving it builds nothing
   Faults faults;
   int n = 1;
 
