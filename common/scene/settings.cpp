@@ -58,7 +58,8 @@ void add_light(Differences& out, const std::string& path, const Light& from, con
   out.add(path + ".attenuation", from.attenuation, to.attenuation);
 }
 
-void add_material(Differences& out, const std::string& path, const Material& from, const Material& to) {
+void add_material(Differences& out, const Material& from, const Material& to) {
+  const std::string path = "material." + scene_file::path_key(to.name);
   out.add(path + ".ambient", from.ambient, to.ambient);
   out.add(path + ".diffuse", from.diffuse, to.diffuse);
   out.add(path + ".specular", from.specular, to.specular);
@@ -172,7 +173,7 @@ Settings settings_between(const Scene& from, const Scene& to) {
   for (std::size_t i = 0; i < std::min(from.lights.size(), to.lights.size()); ++i)
     add_light(out, fmt::format("light.{}", i), from.lights[i], to.lights[i]);
   for (std::size_t i = 0; i < std::min(from.materials.size(), to.materials.size()); ++i)
-    add_material(out, "material.\"" + to.materials[i].name + "\"", from.materials[i], to.materials[i]);
+    add_material(out, from.materials[i], to.materials[i]);
   return out.settings;
 }
 

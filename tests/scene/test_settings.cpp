@@ -90,6 +90,17 @@ TEST_CASE("settings: comments stay, new keys go where their table is, also inlin
   CHECK(out.find("[trace]\n") != std::string::npos);
 }
 
+TEST_CASE("settings: a material's name may have dots, blanks and quotes of either sort") {
+  const std::string camera = "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\nview_height = 1\n";
+  for (const char* key : {"plain", "'a.b'", "'a b'", "'a\"b'", "\"a'b\"", "'\".\"'", "'a\\b'", "''"}) {
+    CAPTURE(key);
+    const std::string text = camera + "[material." + key + "]\ndiffuse = 0.5\n";
+    const Scene before = parse_scene(text, "s.toml"), wanted = changed(before);
+    const std::string out = with_settings(text, settings_between(before, wanted), "s.toml");
+    CHECK(settings_between(parse_scene(out, "s.toml"), wanted).empty());
+  }
+}
+
 TEST_CASE("settings: a path that leads nowhere is an error") {
   CHECK_THROWS_AS(with_settings("", {{"light.3.intensity", "1"}}, "s.toml"), InputError);
   CHECK_THROWS_AS(with_settings("", {{"a..b", "1"}}, "s.toml"), InputError);
