@@ -42,6 +42,7 @@ struct Material {
   glm::dvec3 local{1}, reflect{0}, refract{0};      // c1, c2, c3: >= 0
   double ior = 1;                                   // in [0.25, 4]
   bool casts_shadow = true;
+  bool of_mesh_file = false;                        // from its MTL: the scene file has no key for it
 };
 
 struct Sphere {

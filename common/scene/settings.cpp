@@ -58,7 +58,8 @@ void add_light(Differences& out, const std::string& path, const Light& from, con
   out.add(path + ".attenuation", from.attenuation, to.attenuation);
 }
 
-void add_material(Differences& out, const std::string& path, const Material& from, const Material& to) {
+void add_material(Differences& out, const Material& from, const Material& to) {
+  const std::string path = "material." + scene_file::path_key(to.name);
   out.add(path + ".ambient", from.ambient, to.ambient);
   out.add(path + ".diffuse", from.diffuse, to.diffuse);
   out.add(path + ".specular", from.specular, to.specular);
@@ -171,8 +172,14 @@ Settings settings_between(const Scene& from, const Scene& to) {
   out.add("trace.refraction", from.trace.refraction, to.trace.refraction);
   for (std::size_t i = 0; i < std::min(from.lights.size(), to.lights.size()); ++i)
     add_light(out, fmt::format("light.{}", i), from.lights[i], to.lights[i]);
-  for (std::size_t i = 0; i < std::min(from.materials.size(), to.materials.size()); ++i)
-    add_material(out, "material.\"" + to.materials[i].name + "\"", from.materials[i], to.materials[i]);
+  for (std::size_t i = 0; i < std::min(from.materials.size(), to.materials.size()); ++i) {
+    const std::size_t before = out.settings.size();
+    add_material(out, from.materials[i], to.materials[i]);
+    // By its name a setting would reach another material, of the scene file, or none.
+    if (from.materials[i].of_mesh_file && out.settings.size() > before)
+      throw InputError({from.file, 0, 0}, "the material " + scene_file::in_quotes(from.materials[i].name) +
+                                              " is a mesh file's, expected changes of the scene file's own");
+  }
   return out.settings;
 }
 

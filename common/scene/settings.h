@@ -14,7 +14,8 @@ namespace sidelight {
 using Settings = std::vector<std::pair<std::string, std::string>>;  // key path, value as TOML
 
 // What to set in the file of `from` to get `to`, in every bit: picture size, camera, trace, background, ambient, lights
-// and materials, of which both have the same. Objects are not looked at.
+// and materials, of which both have the same. Objects are not looked at. Throws InputError where a material of a mesh file
+// differs: no setting reaches it.
 Settings settings_between(const Scene& from, const Scene& to);
 
 // The scene file's text with the values in the places of the old ones, or as new lines of their tables; all else,

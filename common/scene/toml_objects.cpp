@@ -125,7 +125,8 @@ void count_files(ObjectSink& sink, const std::vector<std::string>& files, const 
   sink.files_read.insert(sink.files_read.end(), files.begin(), files.end());
   std::error_code gone;
   for (const std::string& file : files)
-    if (const std::uintmax_t bytes = std::filesystem::file_size(file, gone); !gone) sink.effort.file_bytes += bytes;
+    if (const std::uintmax_t bytes = std::filesystem::file_size(file, gone); !gone)
+      sink.effort.file_bytes += bytes;
   if (sink.effort.file_bytes > kMaxFileBytes)
     value.fail("mesh files of at most 4 GiB together, each counted as often as meshes and steps need it");
 }
@@ -139,8 +140,10 @@ PolygonMesh read_obj_mesh(ObjectSink& sink, const Value& value, bool own_materia
   if (!own_materials) return std::move(obj.mesh);
 
   std::vector<std::uint32_t> scene_index;
-  for (Material& material : obj.materials)
+  for (Material& material : obj.materials) {
+    material.of_mesh_file = true;
     scene_index.push_back(add_material(sink.scene, std::move(material)));
+  }
   for (PolygonMesh::Face& face : obj.mesh.faces) {
     if (face.material == kNone)
       throw InputError(
@@ -169,7 +172,8 @@ PolygonMesh read_shape(ObjectSink& sink, const toml::table& table, const Shape& 
   keys.optional.push_back("transform");
   PolygonMesh mesh = shape.read({sink.document, table, "[[mesh]] of shape " + in_quotes(shape.name), keys});
   sink.effort.generated += triangle_count(mesh);
-  check_triangle_count(sink.effort.generated, kMaxGenerated, " of generated shapes (again for each step that changes one)",
+  check_triangle_count(sink.effort.generated, kMaxGenerated,
+                       " of generated shapes (again for each step that changes one)",
                        sink.document.where(table));
   return mesh;
 }

@@ -16,12 +16,6 @@ bool is_bare(std::string_view key) {
   });
 }
 
-std::string path_key(std::string_view key) {
-  if (is_bare(key)) return std::string(key);
-  const char quote = key.find('"') == std::string_view::npos ? '"' : '\'';
-  return quote + std::string(key) + quote;
-}
-
 void collect(toml::table& table, const std::string& prefix, std::vector<Setting>& settings) {
   for (auto&& [key, node] : table) {
     const std::string path = prefix.empty() ? std::string(key.str()) : prefix + "." + path_key(key.str());
@@ -89,6 +83,12 @@ std::vector<Setting> settings_in(toml::table& set, const Document& document) {
   std::ranges::stable_sort(settings, {},
                            [&](const Setting& setting) { return file_order(document.where(setting.where)); });
   return settings;
+}
+
+std::string path_key(std::string_view key) {
+  if (is_bare(key)) return std::string(key);
+  const char quote = key.find('"') == std::string_view::npos ? '"' : '\'';
+  return quote + std::string(key) + quote;
 }
 
 std::vector<std::string> split_path(std::string_view path, const SourceLocation& where) {

@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/scene/settings.h"
 #include "common/scene/toml.h"
+#include "tests/picture/folder.h"
 
 using namespace sidelight;
 
@@ -88,6 +89,37 @@ TEST_CASE("settings: comments stay, new keys go where their table is, also inlin
   for (const char* comment : {"# η \u2264 1\n", "# two\n", "[[light]]   # key\n"})
     CHECK(out.find(comment) != std::string::npos);
   CHECK(out.find("[trace]\n") != std::string::npos);
+}
+
+TEST_CASE("settings: a material's name may have dots, blanks and quotes of either sort") {
+  const std::string camera = "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\nview_height = 1\n";
+  for (const char* key : {"plain", "'a.b'", "'a b'", "'a\"b'", "\"a'b\"", "'\".\"'", "'a\\b'", "''"}) {
+    CAPTURE(key);
+    const std::string text = camera + "[material." + key + "]\ndiffuse = 0.5\n";
+    const Scene before = parse_scene(text, "s.toml"), wanted = changed(before);
+    const std::string out = with_settings(text, settings_between(before, wanted), "s.toml");
+    CHECK(settings_between(parse_scene(out, "s.toml"), wanted).empty());
+  }
+}
+
+// Two materials of one name: a setting by name would change the scene file's.
+TEST_CASE("settings: a change of a mesh file's material is refused") {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "m.mtl", "newmtl red\nKd 1 0 0\n");
+  test::write_bytes(folder / "m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  const Scene before = parse_scene(
+      "camera = { eye = [0, 0, 5], look_at = [0, 0, 0], view_height = 1 }\n"
+      "material.red = { diffuse = 0.5 }\n"
+      "mesh = [{ file = 'm.obj' }]\n",
+      folder / "s.toml");
+  REQUIRE(before.materials.size() == 2);
+  Scene wanted = before;
+  wanted.materials[0].diffuse = {0, 1, 0};
+  CHECK(settings_between(before, wanted).size() == 1);
+  wanted.materials[1].diffuse = {0, 1, 0};
+  const std::string refusal =
+      (folder / "s.toml") + ": the material 'red' is a mesh file's, expected changes of the scene file's own";
+  CHECK_THROWS_WITH_AS(settings_between(before, wanted), refusal.c_str(), InputError);
 }
 
 TEST_CASE("settings: a path that leads nowhere is an error") {

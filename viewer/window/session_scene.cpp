@@ -43,16 +43,24 @@ std::vector<FileStamp> stamps_of(const std::vector<std::string>& files) {
   return out;
 }
 
-// After the file was read again: the camera, samples, faults and the tracer's switches stay as the user left them; all
-// else is the file's.
+// What the user changed by keys and mouse stays, unless the file has changed it since; all else is the file's.
+template <typename T>
+void keep_change(T& now, const T& shown, const T& then) {
+  if (shown != then && now == then) now = shown;
+}
+
+// After the file was read again. Of the camera the user moves these two; of the scene, keys change the tracer's switches.
 void keep_changes(WindowState& state, const WindowState& before) {
-  if (camera_moved(before)) state.camera = before.camera;
-  if (before.n != before.opened.n) state.n = before.n;
-  if (before.faults != before.opened.faults) state.faults = before.faults;
+  const CameraSettings& then = before.untouched->camera;
+  if (state.camera.eye == then.eye && state.camera.look_at == then.look_at) {
+    state.camera.eye = before.camera.eye;
+    state.camera.look_at = before.camera.look_at;
+  }
+  keep_change(state.n, before.n, before.opened.n);
+  keep_change(state.faults, before.faults, before.opened.faults);
   auto scene = std::make_shared<Scene>(*state.untouched);
   const auto keep = [&](auto TraceSettings::*field) {
-    const auto shown = before.scene->trace.*field;
-    if (shown != before.untouched->trace.*field) scene->trace.*field = shown;
+    keep_change(scene->trace.*field, before.scene->trace.*field, before.untouched->trace.*field);
   };
   keep(&TraceSettings::depth);
   keep(&TraceSettings::shadows);

@@ -46,9 +46,4 @@ KeyTarget key_target(const WindowState& state) {
   return is_open(state, state.keys) ? state.keys : KeyTarget::pictures;
 }
 
-bool camera_moved(const WindowState& state) {
-  const CameraSettings &now = state.camera, &then = state.scene->camera;
-  return now.eye != then.eye || now.look_at != then.look_at;
-}
-
 }  // namespace sidelight

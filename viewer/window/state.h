@@ -85,7 +85,4 @@ std::string window_title(const WindowState& state);
 bool is_open(const WindowState& state, KeyTarget target);
 KeyTarget key_target(const WindowState& state);
 
-// Whether the camera is elsewhere than the scene has it.
-bool camera_moved(const WindowState& state);
-
 }  // namespace sidelight
