@@ -202,6 +202,25 @@ TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and t
   CHECK_FALSE(session.watch());
 }
 
+TEST_CASE(
+    "session: of a camera that the user moved, the file still sets the angle, and its own moves go first") {
+  const Open open;
+  Session session(open_state(open.file, open_small), open_small);
+  session.press("Left", kPanel);
+  const glm::dvec3 eye = session.state().camera.eye;
+  std::string text = kGoodScene;
+  save_later(open.file, text.replace(text.find("vertical_fov = 40"), 17, "vertical_fov = 20"));
+  CHECK(session.watch());
+  CHECK(session.state().camera.eye == eye);
+  CHECK(session.state().camera.view_height == session.state().scene->camera.view_height);
+  session.press("s", kPanel);  // the angle would not be there twice
+  CHECK_FALSE(session.state().notice.error);
+
+  save_later(open.file, text.replace(text.find("eye = [0, 1, 6]"), 15, "eye = [0, 1, 9]"));
+  CHECK(session.watch());
+  CHECK(session.state().camera.eye == glm::dvec3(0, 1, 9));
+}
+
 TEST_CASE("session: a mesh file under another name is read once the scene says so") {
   const std::string text = kGoodScene + "[[mesh]]\nfile = 'a.obj'\nmaterial = 'red'\n";
   const Open open(text);

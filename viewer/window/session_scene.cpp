@@ -40,6 +40,16 @@ std::vector<FileStamp> stamps_of(const std::vector<std::string>& files) {
 
 bool inside(const Scene& scene, glm::ivec2 pixel) { return pixel.x < scene.width && pixel.y < scene.height; }
 
+// Eye and look_at stay where the user moved them, unless the file has moved them since; all else of the camera is the
+// file's, which may have changed it.
+void keep_moves(const WindowState& before, WindowState& state) {
+  const CameraSettings& then = before.scene->camera;
+  CameraSettings& camera = state.camera;
+  if (!camera_moved(before) || camera.eye != then.eye || camera.look_at != then.look_at) return;
+  camera.eye = before.camera.eye;
+  camera.look_at = before.camera.look_at;
+}
+
 }  // namespace
 
 Settings settings_of(const Step& step) {
@@ -153,7 +163,7 @@ bool Session::watch() {
   // Gone: an editor is about to replace it, unless the scene was saved anew and may do without.
   if (now.front() == stamps_.front() && std::any_of(now.begin(), now.end(), gone)) return false;
   stamps_ = now;
-  // The view, the mode and the step stay; the camera too, if the user moved it and the file did not.
+  // The view, the mode and the step stay.
   const bool loaded = try_to([&] {
     const WindowState before = state_;
     state_.opened = open_(state_.file, {});
@@ -163,7 +173,7 @@ bool Session::watch() {
     if (state_.step >= steps) state_.step = -1, state_.revealed = false;
     state_.mode = before.mode;
     state_.ledger_term = before.ledger_term;
-    if (camera_moved(before)) state_.camera = before.camera;
+    keep_moves(before, state_);
     if (state_.inspected && !inside(*state_.scene, *state_.inspected)) state_.inspected.reset();
     state_.notice = {};
   });
