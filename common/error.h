@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The two ways a run can fail through no fault of the program: the user's input, and the place it writes to.
-// Loaders and writers throw them; main catches them once and turns them into exit codes 3 and 7.
+// How a run ends without its result, a class for each: main catches it once and turns it into the exit code said here.
 #pragma once
 
 #include <stdexcept>
@@ -16,13 +15,14 @@ struct SourceLocation {
 };
 
 // A mistake in the user's input. what() reads "file:line:column: message" ("file: message" where line is 0);
-// the message says what was found and what was expected, in one line without control characters.
+// the message says what was found and what was expected, in one line without control characters. Exit code 3.
 class InputError : public std::runtime_error {
  public:
   InputError(const SourceLocation& where, const std::string& message);
 };
 
 // A file or folder that could not be written; nothing half-written is left behind. what() names the path.
+// Exit code 7.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -11,7 +11,7 @@
 namespace sidelight {
 namespace {
 
-constexpr std::size_t kLeast = std::size_t{4} << 20;   // what is smaller the system's own allocator keeps
+constexpr std::size_t kLeast = kLargeArray;            // what is smaller the system's own allocator keeps
 constexpr std::size_t kMost = std::size_t{256} << 20;  // kept in all
 constexpr std::align_val_t kLine{64};
 constexpr std::size_t kLargePage = std::size_t{2} << 20;

@@ -10,8 +10,6 @@
 namespace sidelight {
 namespace {
 
-constexpr std::size_t kLeast = std::size_t{4} << 20;  // bytes from which they are worth it
-
 // The whole pages of an array, if there are enough of them.
 struct Pages {
   void* first = nullptr;
@@ -21,7 +19,7 @@ Pages whole_pages(const void* array, std::size_t bytes) {
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   const auto begin = reinterpret_cast<std::uintptr_t>(array);
   const std::uintptr_t first = (begin + page - 1) / page * page, end = (begin + bytes) / page * page;
-  if (end < first + kLeast) return {};
+  if (end < first + kLargeArray) return {};
   return {reinterpret_cast<void*>(first), end - first};
 }
 

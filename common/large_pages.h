@@ -9,7 +9,10 @@
 
 namespace sidelight {
 
-// For memory that has not been touched yet. Arrays below a few megabytes are left alone.
+// Bytes of an array from which it gains; smaller ones are left alone.
+inline constexpr std::size_t kLargeArray = std::size_t{4} << 20;
+
+// For memory that has not been touched yet.
 void wish_large_pages(void* array, std::size_t bytes);
 
 // For memory with something in it, which stays as it is.

@@ -13,7 +13,7 @@ int thread_count(int requested);
 
 // Calls body(item, thread) once for each item in [0, items), thread in [0, thread_count(threads)); which thread gets
 // which item is not determined. Returns when all are done. If a body throws, no further items start, and the first
-// exception is rethrown here.
+// exception is rethrown here. Where the system cannot start that many threads, fewer do it all.
 void parallel_for(int items, int threads, const std::function<void(int item, int thread)>& body);
 
 // The same where an item alone is too little: body(block, first, last) once for each block [first, last) of kBlockItems.

@@ -23,12 +23,7 @@ struct TileGrid {
   Rect tile(int index) const;
 };
 
-// The pixels' samples, n x n in each.
-inline SampleBox samples_of(const Rect& pixels, int n) {
-  return {n * pixels.x0, n * pixels.y0, n * pixels.x1, n * pixels.y1};
-}
-
-using Bin = std::vector<std::uint32_t>;   // primitive numbers
+using Bin = std::vector<std::uint32_t>;  // primitive numbers
 
 class Bins {
  public:

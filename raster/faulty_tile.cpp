@@ -34,7 +34,7 @@ double StoredDepth::key(double t) const {
 
 FaultyTile::FaultyTile(const Camera& camera, const Rect& pixels, const Faults& faults)
     : camera_(camera),
-      box_{camera.n * pixels.x0, camera.n * pixels.y0, camera.n * pixels.x1, camera.n * pixels.y1},
+      box_(samples_of(pixels, camera.n)),
       stored_(faults, camera),
       in_float_(faults.float_precision),
       samples_(static_cast<std::size_t>(box_.x1 - box_.x0) * static_cast<std::size_t>(box_.y1 - box_.y0)) {}

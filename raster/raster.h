@@ -13,9 +13,10 @@
 
 namespace sidelight::raster {
 
-class Prepared;   // what depends on the scene only, and so survives a frame
+class Prepared;  // what depends on the scene only, and so survives a frame
 
-// `scene` must outlive the result. Its time is a renderer's build time.
+// `scene` must outlive the result. Its time is a renderer's build time. One thread does it all: `threads` is there so that
+// both renderers are called alike.
 std::shared_ptr<const Prepared> prepare(const Scene& scene, int threads = 0);
 // The same, entering also what `needs` claims beyond needs_of(scene). Not one bit of the picture changes.
 std::shared_ptr<const Prepared> prepare_for(const Needs& needs, const Scene& scene);

@@ -35,10 +35,6 @@ struct ScreenSpace {
   // What is so for three corners is so for their triangle.
   static constexpr std::uint32_t kUnplaced = 1, kBehind = 2, kLeft = 4, kRight = 8, kAbove = 16, kBelow = 32;
 
-  // sample X of the lattice, in units
-  std::int32_t place_of_column(int X) const { return (X - center_x) * (1 << bits); }
-  std::int32_t place_of_row(int Y) const { return (Y - center_y) * (1 << bits); }
-
   glm::dvec3 eye, right, up, forward;
   int columns, rows;  // of the lattice
   int bits;           // of a sample's fraction

@@ -28,6 +28,20 @@ SampleBox box_of_sphere(const Camera& camera, const Sphere& sphere) {
   return box_of_points(camera, corners);
 }
 
+// As set_up_chunk() (setup_kernel.h) finds it for many.
+SampleBox box_of_triangle(const Scene& scene, const Camera& camera, const Triangle& triangle) {
+  if (triangle.degenerate) return {};
+  const auto [v0, v1, v2] = corners(scene, triangle);
+  const ScreenSpace space(camera);
+  const ScreenVertex a = project(space, v0), b = project(space, v1), c = project(space, v2);
+  if ((a.state & b.state & c.state & ~ScreenSpace::kUnplaced) != 0) return {};
+  if (((a.state | b.state | c.state) & ScreenSpace::kUnplaced) != 0)
+    return box_of_points(camera, std::array{v0 - camera.eye, v1 - camera.eye, v2 - camera.eye});
+  const Box<std::int32_t> box = box_of_places(space, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
+                                              std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}));
+  return {box.x0, box.y0, box.x1, box.y1};
+}
+
 }  // namespace
 
 SampleBox intersection(const SampleBox& a, const SampleBox& b) {
@@ -46,7 +60,8 @@ SampleBox box_of_points(const Camera& camera, std::span<const glm::dvec3> points
   for (const glm::dvec3& a : points) {
     const double size = glm::length(a);
     const double depth = glm::dot(a, camera.forward);
-    if (depth < -0x1p-40 * size) ++behind;   // surely: the hull's part in front of the eye needs a point in front
+    if (depth < -0x1p-40 * size)
+      ++behind;  // surely: the hull's part in front of the eye needs a point in front
     if (!(depth >= 0x1p-10 * size) || size == 0) continue;
     ++projected;
     const double margin = 1 + 0x1p-48 * (size / depth) * scale * glm::length(camera.up);
@@ -61,21 +76,6 @@ SampleBox box_of_points(const Camera& camera, std::span<const glm::dvec3> points
   if (projected < points.size()) return whole(camera);
   return {clamped(left, 0, camera.columns()), clamped(top, 0, camera.rows()),
           clamped(right, -1, camera.columns() - 1) + 1, clamped(bottom, -1, camera.rows() - 1) + 1};
-}
-
-// As set_up_chunk() (setup_kernel.h) finds it for many.
-SampleBox box_of_triangle(const Scene& scene, const Camera& camera, const Triangle& triangle) {
-  if (triangle.degenerate) return {};
-  const auto [v0, v1, v2] = corners(scene, triangle);
-  const ScreenSpace space(camera);
-  const ScreenVertex a = project(space, v0), b = project(space, v1), c = project(space, v2);
-  if ((a.state & b.state & c.state & ~ScreenSpace::kUnplaced) != 0) return {};
-  if (((a.state | b.state | c.state) & ScreenSpace::kUnplaced) != 0)
-    return box_of_points(camera, std::array{v0 - camera.eye, v1 - camera.eye, v2 - camera.eye});
-  const Box<std::int32_t> box =
-      box_of_places(space, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
-                    std::max({a.y, b.y, c.y}));
-  return {box.x0, box.y0, box.x1, box.y1};
 }
 
 SampleBox box_of_primitive(const Scene& scene, const Camera& camera, std::uint32_t primitive) {

@@ -5,11 +5,17 @@
 
 #include <span>
 
+#include "common/picture/frame.h"
 #include "common/scene/camera.h"
 #include "common/scene/scene.h"
 #include "raster/screen.h"
 
 namespace sidelight::raster {
+
+// The pixels' samples, n x n in each.
+inline SampleBox samples_of(const Rect& pixels, int n) {
+  return {n * pixels.x0, n * pixels.y0, n * pixels.x1, n * pixels.y1};
+}
 
 SampleBox intersection(const SampleBox& a, const SampleBox& b);
 

@@ -6,7 +6,7 @@ namespace sidelight::raster {
 template <class Recorder>
 DepthTile<Recorder>::DepthTile(const Camera& camera, const Rect& pixels, Recorder& recorder, bool count_tests)
     : camera_(camera),
-      samples_{camera.n * pixels.x0, camera.n * pixels.y0, camera.n * pixels.x1, camera.n * pixels.y1},
+      samples_(samples_of(pixels, camera.n)),
       axis_(camera.axis_part()),
       recorder_(recorder) {
   for (int X = samples_.x0; X < samples_.x1; ++X) columns_.push_back(camera.column_part(X));

@@ -13,8 +13,8 @@ struct BallBatch {
   SurfaceBatch::Channel<std::uint32_t> ray;  // the caller's own number
   alignas(64) SurfaceBatch::Vectors origin{}, direction{}, center{};
   alignas(64) SurfaceBatch::Channel<double> radius{};
-  alignas(64)
-      SurfaceBatch::Channel<double> passes{};     // not 0: its first hit is passed, the second is asked for
+  // Not 0: its first hit is passed, the second is asked for.
+  alignas(64) SurfaceBatch::Channel<double> passes{};
   alignas(64) SurfaceBatch::Channel<double> t{};  // result; infinite where there is no such hit
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "raytrace/kernels.h"
+#include "raytrace/near_kernel.h"
 
 namespace sidelight::raytrace {
 
@@ -24,9 +25,7 @@ bool BallClearings::contain(std::uint32_t primitive, const glm::dvec3& point, do
   return std::none_of(others->spheres.begin(), others->spheres.begin() + others->count, [&](std::uint32_t i) {
     const Sphere& other = scene.spheres[i];
     const glm::dvec3 f = point - other.center;
-    const double square = glm::dot(f, f);
-    const double least = std::max(other.radius - 2 * room, 0.0), most = other.radius + 2 * room;
-    return square >= least * least && square <= most * most;
+    return is_near_sphere<double>({f.x, f.y, f.z}, other.radius, room);
   });
 }
 

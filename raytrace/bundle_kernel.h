@@ -119,7 +119,7 @@ template <class F>
                                                    std::uint32_t rays, MetByBundle& met) {
   using I = Ints<F>;
   for (std::size_t lane = 0; lane < BvhNode::kWidth; lane += kLanes<F>) {
-    F entry(std::numeric_limits<float>::infinity());
+    F entry(kInfinity);
     I by(0);
     for (std::uint32_t left = rays; left != 0; left &= left - 1) {
       const auto r = static_cast<std::size_t>(std::countr_zero(left));
@@ -137,9 +137,9 @@ template <class F>
 template <class R>
 [[gnu::always_inline]] inline void meet_child_by_child(const BvhNode& node, const Bundle& bundle,
                                                        std::uint32_t rays, MetByBundle& met) {
-  const R infinity(std::numeric_limits<float>::infinity());
+  const R infinity(kInfinity);
   met.rays.fill(0);
-  met.entry.fill(std::numeric_limits<float>::infinity());
+  met.entry.fill(kInfinity);
   for (std::size_t lane = 0; lane < Bundle::kCapacity; lane += kLanes<R>) {
     const auto of = [&](const Bundle::Lanes& lanes) { return load<R>(lanes.data() + lane); };
     const R limit = select<R>(lanes_of<R>(rays >> lane), of(bundle.limit), R(-1));

@@ -21,6 +21,8 @@
 
 namespace sidelight::raytrace {
 
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "common/math/norms.h"
 #include "common/parallel.h"
 #include "raytrace/bvh.h"
 #include "raytrace/bvh_reference.h"
@@ -54,7 +55,7 @@ class Builder {
   };
 
   struct Bins {
-    std::array<std::array<Bounds, kMostBins>, 3> of;
+    std::array<std::array<FloatBox, kMostBins>, 3> of;
     Bins() {}  // those in use are set up by best_split()
   };
 
@@ -103,12 +104,12 @@ class Builder {
     std::array<std::array<std::uint32_t, kMostBins>, 3> counts{};
     Bins boxes;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t bin = 0; bin < binning.bins; ++bin) boxes.of[axis][bin] = Bounds{};
+      for (std::size_t bin = 0; bin < binning.bins; ++bin) boxes.of[axis][bin] = FloatBox{};
     const std::uint32_t step = std::max(1u, range.count / kSample);
     std::uint32_t sampled = 0;
     for (std::uint32_t k = range.first; k < range.first + range.count; k += step) {
       ++sampled;
-      const Bounds box = references_[k].box();
+      const FloatBox box = references_[k].box();
       const auto bin = binning.of(box);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto b = static_cast<std::size_t>(bin[axis]);
@@ -121,7 +122,7 @@ class Builder {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (binning.per_width[axis] == 0) continue;
       std::array<float, kMostBins> right_cost{};
-      Bounds box;
+      FloatBox box;
       std::uint32_t items = 0;
       for (std::size_t bin = binning.bins - 1; bin > 0; --bin) {
         box.grow(boxes.of[axis][bin]);
@@ -173,8 +174,7 @@ class Builder {
   std::uint32_t halve(const Range& range) {
     Reference* begin = references_ + range.first;
     const Quad width = range.boxes.high - range.boxes.low;
-    const std::size_t axis =
-        width[0] >= width[1] ? (width[0] >= width[2] ? 0 : 2) : (width[1] >= width[2] ? 1 : 2);
+    const auto axis = static_cast<std::size_t>(greatest_axis<float>(width[0], width[1], width[2]));
     std::nth_element(begin, begin + range.count / 2, begin + range.count,
                      [&](const Reference& a, const Reference& b) {
                        const float center_a = a.center(axis), center_b = b.center(axis);
@@ -186,7 +186,7 @@ class Builder {
   Range part(std::uint32_t first, std::uint32_t count, int depth) const {
     Range range{first, count, {}, {}, depth};
     for (std::uint32_t k = first; k < first + count; ++k) {
-      const Bounds box = references_[k].box();
+      const FloatBox box = references_[k].box();
       range.boxes.grow(box);
       range.centers.grow(center_of(box));
     }
@@ -231,8 +231,8 @@ Range refer(std::span<const std::uint32_t> items, const BoxesOf& boxes_of, const
   for_boxes(items, boxes_of, threads, [&](std::size_t block, std::size_t first, const KeptArray<Box>& boxes) {
     Range part;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const Bounds box{round_down(difference(boxes[i].low, center)),
-                       round_up(difference(boxes[i].high, center))};
+      const FloatBox box{round_down(difference(boxes[i].low, center)),
+                         round_up(difference(boxes[i].high, center))};
       references[first + i] = {items[first + i], box};
       part.boxes.grow(box);
       part.centers.grow(center_of(box));

@@ -188,8 +188,8 @@ template <class F, class Leaf>
     const auto i = static_cast<std::size_t>(axis);
     const double from = box_low[axis] - bvh.center[axis], to = box_high[axis] - bvh.center[axis];
     const double pad = 0x1p-46 * bvh.reach + 0x1p-120;
-    low[i] = static_cast<float>(from - (0x1p-23 * (from < 0 ? -from : from) + pad));
-    high[i] = static_cast<float>(to + (0x1p-23 * (to < 0 ? -to : to) + pad));
+    low[i] = static_cast<float>(from - (0x1p-23 * lane_abs(from) + pad));
+    high[i] = static_cast<float>(to + (0x1p-23 * lane_abs(to) + pad));
   }
   std::array<std::uint32_t, Bvh::kMaxDepth*(BvhNode::kWidth - 1) + 1> stack;
   std::size_t size = 0;

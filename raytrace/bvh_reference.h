@@ -10,19 +10,18 @@
 #include <bit>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
 
 #include "common/math/lanes.h"
+#include "raytrace/bvh.h"
 
 namespace sidelight::raytrace {
 
 using Quad = stdx::simd<float, stdx::simd_abi::deduce_t<float, 4>>;  // x, y, z and one to spare
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-struct Bounds {
+struct FloatBox {
   Quad low{kInfinity}, high{-kInfinity};
 
-  [[gnu::always_inline]] void grow(const Bounds& b) {
+  [[gnu::always_inline]] void grow(const FloatBox& b) {
     low = stdx::min(low, b.low);
     high = stdx::max(high, b.high);
   }
@@ -38,12 +37,12 @@ struct Bounds {
 class Reference {
  public:
   Reference() = default;
-  [[gnu::always_inline]] Reference(std::uint32_t item, const Bounds& box) : low_(box.low) {
+  [[gnu::always_inline]] Reference(std::uint32_t item, const FloatBox& box) : low_(box.low) {
     const auto fourth = std::bit_cast<Bits>(_mm_slli_si128(_mm_cvtsi32_si128(static_cast<int>(item)), 12));
     high_and_item_ = from_bits<Quad>((to_bits(box.high) & load<Bits>(kFirstThree.data())) | fourth);
   }
   // The item's bits would be a denormal number, and slow.
-  [[gnu::always_inline]] Bounds box() const {
+  [[gnu::always_inline]] FloatBox box() const {
     return {low_, from_bits<Quad>(to_bits(high_and_item_) & load<Bits>(kFirstThree.data()))};
   }
   // Twice the centre.
@@ -59,14 +58,14 @@ class Reference {
 static_assert(sizeof(Reference) == 32);
 
 // Twice the centre of a box, as both ends of an interval.
-[[gnu::always_inline]] inline Bounds center_of(const Bounds& box) {
+[[gnu::always_inline]] inline FloatBox center_of(const FloatBox& box) {
   return {box.low + box.high, box.low + box.high};
 }
 
 // Items that become one subtree.
 struct Range {
   std::uint32_t first = 0, count = 0;
-  Bounds boxes, centers;
+  FloatBox boxes, centers;
   int depth = 0;  // nodes above it
 };
 
@@ -111,7 +110,7 @@ struct Binning {
     // A little less than the bins, so that the last centre falls into the last one.
     stdx::where(width > Quad(0), per_width) = Quad(static_cast<float>(bins) * (1 - 0x1p-12f)) / width;
   }
-  [[gnu::always_inline]] auto of(const Bounds& box) const {
+  [[gnu::always_inline]] auto of(const FloatBox& box) const {
     const Quad at = ((box.low + box.high) - from) * per_width;
     return stdx::static_simd_cast<stdx::rebind_simd_t<int, Quad>>(at);
   }

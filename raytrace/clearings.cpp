@@ -14,7 +14,7 @@ namespace sidelight::raytrace {
 // is rounded up here.
 Clearings::Clearings(const Prepared& prepared, int patience)
     : prepared_(prepared), room_((1 + 0x1p-10) * room_for(prepared.reach, 4 * prepared.reach)) {
-  if (!prepared.needs[Need::mirrors] && !prepared.needs[Need::refraction]) return;
+  if (!prepared.needs.secondary_rays()) return;
   inset_.assign(prepared.scene.triangles.size(), static_cast<float>(-patience));
   balls_.emplace(prepared, room_, patience);
 }

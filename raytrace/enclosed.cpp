@@ -31,9 +31,9 @@ Enclosures::Enclosures(const Prepared& prepared) : prepared_(prepared) {
       hidden_.push_back(prepared.shuts_in[i] != 0 && is_outside(prepared.bounds[i], light));
 }
 
-std::size_t Enclosures::around(const glm::dvec3& from, const Media& media, bool lone) const {
+std::uint32_t Enclosures::around(const glm::dvec3& from, const Media& media, bool lone) const {
   const std::uint32_t current = media.current();
-  if (current == sidelight::kNone) return kNone;
+  if (current == kNone) return kNone;
   const Object& object = prepared_.scene.objects[current];
   if (object.kind == ObjectKind::plane) return kNone;
   if (object.kind == ObjectKind::sphere) {
@@ -44,7 +44,7 @@ std::size_t Enclosures::around(const glm::dvec3& from, const Media& media, bool 
   } else if (!lone || !media.certain()) {
     return kNone;
   }
-  return prepared_.place_of(current);
+  return static_cast<std::uint32_t>(prepared_.place_of(current));
 }
 
 }  // namespace sidelight::raytrace

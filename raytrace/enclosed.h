@@ -23,15 +23,13 @@ bool is_outside(const Bounds& bounds, const Light& light);
 
 class Enclosures {
  public:
-  static constexpr std::size_t kNone = ~std::size_t{0};
-
   explicit Enclosures(const Prepared& prepared);
 
   // The solid, as its place in Prepared::solids, that surely contains a point from which rays leave a hit in this medium;
   // kNone if that is not known. `lone`: whether the hit is (lone_hit.h).
-  std::size_t around(const glm::dvec3& from, const Media& media, bool lone) const;
+  std::uint32_t around(const glm::dvec3& from, const Media& media, bool lone) const;
   // Whether the light is hidden from all that lies within the solid; not from kNone.
-  bool hide(std::size_t solid, std::size_t light) const {
+  bool hide(std::uint32_t solid, std::size_t light) const {
     return solid != kNone && hidden_[light * solids() + solid] != 0;
   }
 

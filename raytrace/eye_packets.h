@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the eye sees: the rays of the samples' lattice as packets of 16 x 16 (packets.h). The primitives are those of
+// What the eye sees: the rays of the samples' lattice as packets of 32 x 32 (packets.h). The primitives are those of
 // nearest(), every one.
 #pragma once
 

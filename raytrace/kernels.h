@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tracer's kernels, each written once over lanes (bvh_kernel.h, leaf_kernel.h) and instantiated for each instruction
-// set. Every set gives the same answers and counts.
+// The tracer's kernels, each written once over lanes (ray_kernel.h) and instantiated for each instruction set. Every set
+// gives the same answers and counts.
 #pragma once
 
 #include <span>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Which primitives of a leaf a ray may meet: filters over lanes D of doubles, each verdict certified by a bound on its
 // rounding. A primitive is dropped only where exact arithmetic, and so visibility.h, would find no hit at a depth in
-// (0, limit]; what is left is asked there. Included by the kernels only (bvh_kernel.h); nothing is fused.
+// (0, limit]; what is left is asked there. Included by the kernels only (ray_kernel.h); nothing is fused.
 #pragma once
 
 #include "common/math/lane_ops.h"
+#include "common/math/norms.h"
 #include "common/model/visibility.h"
 #include "raytrace/bvh.h"
 
@@ -39,16 +40,14 @@ class TriangleFilter {
 
   TriangleFilter() = default;  // to be set
   explicit TriangleFilter(const Ray& ray) {
-    const auto magnitude = [](double x) { return x < 0 ? -x : x; };
-    const double x = magnitude(ray.direction.x), y = magnitude(ray.direction.y),
-                 z = magnitude(ray.direction.z);
-    const int axis_z = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+    const int axis_z =
+        greatest_axis(lane_abs(ray.direction.x), lane_abs(ray.direction.y), lane_abs(ray.direction.z));
     const int axis_x = axis_z == 2 ? 0 : axis_z + 1, axis_y = axis_z == 0 ? 2 : axis_z - 1;
     axis_ = {static_cast<std::size_t>(axis_x), static_cast<std::size_t>(axis_y),
              static_cast<std::size_t>(axis_z)};
     for (std::size_t i = 0; i < 3; ++i) origin_[i] = ray.origin[static_cast<int>(axis_[i])];
     inverse_z_ = 1 / ray.direction[axis_z];
-    doubt_z_ = 1.5 * magnitude(inverse_z_);
+    doubt_z_ = 1.5 * lane_abs(inverse_z_);
     shear_x_ = ray.direction[axis_x] * inverse_z_;
     shear_y_ = ray.direction[axis_y] * inverse_z_;
   }
@@ -114,13 +113,12 @@ class SphereFilter {
 
   SphereFilter() = default;  // to be set
   SphereFilter(const Ray& ray, double reach) {
-    const auto magnitude = [](double x) { return x < 0 ? -x : x; };
     double largest = reach;
     for (std::size_t i = 0; i < 3; ++i) {
       const int axis = static_cast<int>(i);
       origin_[i] = ray.origin[axis];
       direction_[i] = ray.direction[axis];
-      largest = lane_max(largest, magnitude(origin_[i]));
+      largest = lane_max(largest, lane_abs(origin_[i]));
     }
     reach_ = 2 * largest;
     inverse_square_ =

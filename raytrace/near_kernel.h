@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which primitives of a leaf may stand near a point in the sense of stands_near() (place.h): filters over lanes D of
 // doubles. They ask its quick questions with a distance that is at least its own, nearness() of the whole hierarchy, so
-// what they drop it would drop; what is left is asked there. Included by the kernels only (bvh_kernel.h).
+// what they drop it would drop; what is left is asked there. Included by the kernels only (ray_kernel.h), and for is_near_sphere() by ball_clearings.cpp.
 #pragma once
 
 #include "common/math/lane_ops.h"
@@ -9,11 +9,6 @@
 #include "raytrace/leaves.h"
 
 namespace sidelight::raytrace {
-
-template <class D>
-[[gnu::always_inline]] inline D size_of(const Vec3<D>& v) {
-  return (lane_abs<D>(v.x) + lane_abs<D>(v.y)) + lane_abs<D>(v.z);
-}
 
 // may_be_near() of place.cpp: box, plane and edges. A bit each for the lanes from `leaf` on; `asked` are those that matter.
 template <class D>
@@ -35,26 +30,32 @@ template <class D>
   if ((mask_bits<D>(in_box) & asked) == 0) return 0;
 
   const Vec3<D> e1 = v1 - v0, e2 = v2 - v0, q = p - v0, n = cross(e1, e2);
-  const D area = size_of(e1) * size_of(e2), rounding(0x1p-48);
-  const Mask<D> off_plane = lane_abs<D>(dot(q, n)) > D(2) * room * size_of(n) + rounding * size_of(q) * area;
+  const D area = l1_norm(e1) * l1_norm(e2), rounding(0x1p-48);
+  const Mask<D> off_plane = lane_abs<D>(dot(q, n)) > D(2) * room * l1_norm(n) + rounding * l1_norm(q) * area;
   const auto beyond = [&](const Vec3<D>& a, const Vec3<D>& b) {
     const Vec3<D> edge = b - a, from_a = p - a;
-    return dot(cross(edge, from_a), n) < -(D(2) * room + rounding * size_of(from_a)) * size_of(edge) * area;
+    return dot(cross(edge, from_a), n) < -(D(2) * room + rounding * l1_norm(from_a)) * l1_norm(edge) * area;
   };
   return mask_bits<D>(in_box && !(off_plane || beyond(v0, v1) || beyond(v1, v2) || beyond(v2, v0)));
 }
 
-// Whether the point lies within twice the distance of a sphere's surface. (Nearness allows ten clearances and more; the
-// height's own rounding is one.)
+// Whether a point, seen from the center of a sphere, lies within twice the distance of its surface. (Nearness allows ten
+// clearances and more; the height's own rounding is one.)
+template <class D>
+[[gnu::always_inline]] inline Mask<D> is_near_sphere(const Vec3<D>& from_center, const D& radius,
+                                                     double distance) {
+  const D room(2 * distance), square = dot(from_center, from_center);
+  const D least = lane_max<D>(radius - room, D(0)), most = radius + room;
+  return square >= least * least && square <= most * most;
+}
+
 template <class D>
 [[gnu::always_inline]] inline std::uint32_t near_bits(const SphereLeaves&, const double* leaf,
                                                       std::uint32_t count, std::uint32_t,
                                                       const glm::dvec3& point, double distance) {
   const Vec3<D> f{D(point.x) - load<D>(leaf), D(point.y) - load<D>(leaf + count),
                   D(point.z) - load<D>(leaf + 2 * count)};
-  const D radius = load<D>(leaf + 3 * count), room(2 * distance), square = dot(f, f);
-  const D least = lane_max<D>(radius - room, D(0)), most = radius + room;
-  return mask_bits<D>(square >= least * least && square <= most * most);
+  return mask_bits<D>(is_near_sphere<D>(f, load<D>(leaf + 3 * count), distance));
 }
 
 // How far a triangle T must be inset to keep away from others. Of T's points with barycentric weights of at least m, along
@@ -96,7 +97,7 @@ class InsetFilter {
       const D a = dot(axis, own_[0]), b = dot(axis, own_[1]), c = dot(axis, own_[2]);
       const D high = lane_max<D>(dot(axis, v0), lane_max<D>(dot(axis, v1), dot(axis, v2)));
       const D low = lane_min<D>(a, lane_min<D>(b, c)), gain = ((a + b) + c) - D(3) * low;
-      const D need = D(room_) * size_of(axis) - (low - high);
+      const D need = D(room_) * l1_norm(axis) - (low - high);
       const Mask<D> enough = gain > D(3) * need;
       return select<D>(need < D(0), D(0), select<D>(enough, need / select<D>(enough, gain, D(1)), D(1)));
     };

@@ -10,15 +10,9 @@
 
 namespace sidelight::raytrace {
 
-template <class D>
-using FloatsOf = decltype(to_float<D>(D{}));
 template <class F>
 Vec3<F> wide_of(const glm::dvec3& v) {
   return {F(v.x), F(v.y), F(v.z)};
-}
-template <class F>
-F l1(const Vec3<F>& v) {
-  return (lane_abs<F>(v.x) + lane_abs<F>(v.y)) + lane_abs<F>(v.z);
 }
 
 // Groups of a packet, as bits.
@@ -65,7 +59,6 @@ template <class F>
 bool keep_nearer(RayPacket& p, std::size_t first, std::uint32_t primitive, const Mask<F>& met,
                  const Mask<F>& may, const F& w, const F& w_error, VisibilityCounts& counts) {
   using I = Ints<F>;
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const F held = load<F>(&p.w[first]);
   const Mask<F> nearer = met && w * F(kFloatDepthError) > w_error && w > held * F(kSurely);
   const Mask<F> farther = (w + w_error) * F(kSurely) < held;
@@ -110,8 +103,7 @@ struct PacketEntry {
 };
 
 inline bool casts_none(const Prepared& prepared, const RayPacket& p, std::uint32_t primitive) {
-  if (!p.any_hit || p.all_cast) return false;
-  return !prepared.scene.materials[primitive_material(prepared.scene, primitive)].casts_shadow;
+  return p.any_hit && !prepared.all_cast_shadows && !casts_shadow(prepared.scene, primitive);
 }
 
 // ---- The items of a leaf, or of two, side by side, and groups of rays ----
@@ -123,7 +115,7 @@ using PerItem = std::array<float, kMaxItems>;
 inline void hide_what_casts_none(const Prepared& prepared, const RayPacket& p,
                                  const std::uint32_t* primitives, std::uint32_t count, float* row,
                                  float hidden) {
-  if (!p.any_hit || p.all_cast) return;
+  if (!p.any_hit || prepared.all_cast_shadows) return;
   for (std::uint32_t i = 0; i < count; ++i)
     if (casts_none(prepared, p, primitives[i])) row[i] = hidden;
 }

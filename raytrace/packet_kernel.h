@@ -24,7 +24,6 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
           ((lane_abs(x) * static_cast<double>(p.extent_u) + lane_abs(y) * static_cast<double>(p.extent_v)) +
            lane_abs(c)) +
       p.place_error * (lane_abs(x) + lane_abs(y)) + 0x1p-46 * p.length * lane_abs(per_h);
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   LeafSetup s{};
   for (std::size_t k = 0; k < 3; ++k) {
     s.x[k][0] = s.y[k][0] = 0;
@@ -46,8 +45,8 @@ void find_squares(RayPacket& p) {
   const Vec3<D> W = wide_of<D>(p.W), U = wide_of<D>(p.U), V = wide_of<D>(p.V);
   const D per_square(1 / (p.length * p.length));
   for (std::size_t i = 0; i < static_cast<std::size_t>(p.groups) * RayPacket::kGroup; i += kLanes<D>) {
-    const Vec3<D> d =
-        (W + to_double<D>(load<FloatsOf<D>>(&p.u[i])) * U) + to_double<D>(load<FloatsOf<D>>(&p.v[i])) * V;
+    const Vec3<D> d = (W + to_double<D>(load<FloatBeside<D>>(&p.u[i])) * U) +
+                      to_double<D>(load<FloatBeside<D>>(&p.v[i])) * V;
     store(to_float<D>(per_square * dot(d, d)), &p.square[i]);
   }
 }

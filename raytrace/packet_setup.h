@@ -41,11 +41,11 @@ inline PacketAxes packet_axes(const RayPacket& p) {
   const double det = dot(W, UV), per_det = 1 / det, size_det = lane_abs(per_det);
   PacketAxes axes;
   axes.row = {per_det * cross(V, W), per_det * cross(W, U), per_det * UV};
-  for (std::size_t k = 0; k < 3; ++k) axes.size[k] = l1(axes.row[k]);
-  axes.per_place = {size_det * (l1(V) * l1(W)), size_det * (l1(W) * l1(U))};
+  for (std::size_t k = 0; k < 3; ++k) axes.size[k] = l1_norm(axes.row[k]);
+  axes.per_place = {size_det * (l1_norm(V) * l1_norm(W)), size_det * (l1_norm(W) * l1_norm(U))};
   axes.per_det = size_det;
-  axes.kappa = axes.per_place[0] * l1(U);
-  const double per_s = size_det * (l1(U) * l1(V));
+  axes.kappa = axes.per_place[0] * l1_norm(U);
+  const double per_s = size_det * (l1_norm(U) * l1_norm(V));
   axes.ahead_0 = 0x1p24 * per_s * (p.near_error * p.reach + 0x1p-50 * p.distance);
   axes.ahead_l = 0x1p-26 * per_s;
   return axes;
@@ -200,7 +200,7 @@ bool set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* 
     return Vec3<D>{along(axes.row[0]), along(axes.row[1]), along(axes.row[2])};
   };
   const Vec3<D> v0 = corner(0), a0 = v0 - wide_of<D>(p.origin), e1 = corner(1) - v0, e2 = corner(2) - v0;
-  const D m = lane_max<D>(l1(e1), l1(e2)), l = l1(a0) + m;
+  const D m = lane_max<D>(l1_norm(e1), l1_norm(e2)), l = l1_norm(a0) + m;
   const Vec3<D> q0 = in_axes(a0), q1 = in_axes(e1), q2 = in_axes(e2);
   const std::array<Vec3<D>, 3> q{q0, q0 + q1, q0 + q2};
   const Mask<D> asked = lane_numbers<D>() < D(static_cast<double>(count) - static_cast<double>(lane));
@@ -219,7 +219,7 @@ bool set_up_leaf(const RayPacket& p, const PacketAxes& axes, const double* leaf,
     if (lane < count)
       any_asked |= set_up_triangles<D>(p, axes, leaf, count, lane, at + lane, out);
     else
-      std::fill_n(&out.low_u[at + lane], kLanes<D>, std::numeric_limits<float>::infinity());
+      std::fill_n(&out.low_u[at + lane], kLanes<D>, kInfinity);
   return any_asked;
 }
 

@@ -19,11 +19,12 @@ namespace sidelight::raytrace {
 // by 2^-46 ((|f| + r + distance) / r)² in visibility.h; and its root by that over itself. Depths are told for an origin
 // well off the surface.
 struct SphereSetup {
-  alignas(64) std::array<PerItem, 3> gx, gy, gc;  // g = gx u + gy v + gc
-  alignas(64) PerItem doubt;                      // of D
-  alignas(64) PerItem bx, by, bc, root;           // 1/t = bx u + by v + bc + root sqrt D
-  alignas(64) PerItem b_error, root_error;  // of 1/t: b_error + root_error / sqrt D; -inf: not to be met
-  alignas(64) PerItem clear;                // D above which 1/t is known; infinite where it is not known
+  using PerItem = std::array<float, Bvh::kMaxLeaf>;
+  alignas(32) std::array<PerItem, 3> gx, gy, gc;  // g = gx u + gy v + gc
+  alignas(32) PerItem doubt;                      // of D
+  alignas(32) PerItem bx, by, bc, root;           // 1/t = bx u + by v + bc + root sqrt D
+  alignas(32) PerItem b_error, root_error;  // of 1/t: b_error + root_error / sqrt D; -inf: not to be met
+  alignas(32) PerItem clear;                // D above which 1/t is known; infinite where it is not known
 };
 
 // Spheres from `lane` on, of the `count` of a leaf.
@@ -31,16 +32,16 @@ template <class D>
 void set_up_spheres(const RayPacket& p, const double* leaf, std::uint32_t count, std::size_t lane,
                     SphereSetup& s) {
   const auto row = [&](std::size_t k) { return load<D>(leaf + lane + k * count); };
-  const auto put = [&](const D& x, PerItem& to) { store(to_float<D>(x), &to[lane]); };
+  const auto put = [&](const D& x, SphereSetup::PerItem& to) { store(to_float<D>(x), &to[lane]); };
   const Mask<D> asked = lane_numbers<D>() < D(static_cast<double>(count) - static_cast<double>(lane));
   const D radius = select<D>(asked, row(3), D(1)), per_r = D(1) / radius, unit = per_r * D(1 / p.length);
   const Vec3<D> f = wide_of<D>(p.origin) - Vec3<D>{row(0), row(1), row(2)};
   const Vec3<D> U = wide_of<D>(p.U), V = wide_of<D>(p.V), W = wide_of<D>(p.W);
   const Vec3<D> x = unit * cross(U, f), y = unit * cross(V, f), c = unit * cross(W, f);
   const D extent_u(static_cast<double>(p.extent_u)), extent_v(static_cast<double>(p.extent_v));
-  const D size = l1(f), l = (size + radius) + D(p.distance), near(2 * p.near_error * p.reach);
-  const D off = D(0x1p-22) * ((l1(x) * extent_u + l1(y) * extent_v) + l1(c)) +
-                (D(0x1p-49) * size + near) * per_r + D(p.place_error) * (l1(x) + l1(y));
+  const D size = l1_norm(f), l = (size + radius) + D(p.distance), near(2 * p.near_error * p.reach);
+  const D off = D(0x1p-22) * ((l1_norm(x) * extent_u + l1_norm(y) * extent_v) + l1_norm(c)) +
+                (D(0x1p-49) * size + near) * per_r + D(p.place_error) * (l1_norm(x) + l1_norm(y));
   const D in_radii = l * per_r;
   const D doubt =
       ((D(2) + off) * off + D(0x1p-21) * ((D(1) + off) * (D(1) + off))) + D(0x1p-46) * (in_radii * in_radii);
@@ -52,7 +53,6 @@ void set_up_spheres(const RayPacket& p, const double* leaf, std::uint32_t count,
   }
   put(doubt, s.doubt);
 
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const D q = dot(f, f) - radius * radius, size_q = lane_abs<D>(q);
   const Mask<D> sure = size_q > D(0x1p-18) * (l * l) && size_q > (D(0x1p24) * near) * l;
   const D per_q = select<D>(sure, D(1) / select<D>(sure, q, D(1)), D(0)), size_per_q = lane_abs<D>(per_q);
@@ -78,7 +78,7 @@ std::size_t add_spheres_met(const RayPacket& p, const SphereSetup& s, std::size_
   const B u = middle(p.group_u), v = middle(p.group_v), half_u = half(p.group_u), half_v = half(p.group_v);
   std::size_t size = 0;
   for (std::size_t i = 0; i < Bvh::kMaxLeaf; i += kLanes<B>) {
-    const auto at = [&](const PerItem& row) { return load<B>(&row[i]); };
+    const auto at = [&](const SphereSetup::PerItem& row) { return load<B>(&row[i]); };
     const auto at_middle = [&](const B& x, const B& y, const B& c) {
       return mul_add(x, u, mul_add(y, v, c));
     };
@@ -119,7 +119,7 @@ bool test_sphere(RayPacket& p, const SphereSetup& s, std::size_t i, std::size_t 
   const F w = mul_add(F(s.root[i]), root, at(s.bx[i], s.by[i], s.bc[i]));
   const F error = F(s.b_error[i]) + F(s.root_error[i]) / root;
   return keep_nearer<F>(p, ray, primitive, met, may, select<F>(met, w, F(0)),
-                        select<F>(met, error, F(std::numeric_limits<float>::infinity())), counts);
+                        select<F>(met, error, F(kInfinity)), counts);
 }
 
 template <class F, class B, class D>
@@ -129,11 +129,10 @@ void test_leaves(const Prepared& prepared, const PacketAxes&, const SphereLeaves
   auto [depth, first, count, groups] = one.front();
   const std::uint32_t* primitives = &leaves.bvh.items[first];
   SphereSetup setup;
-  setup.b_error.fill(-std::numeric_limits<float>::infinity());
+  setup.b_error.fill(-kInfinity);
   for (std::size_t lane = 0; lane < count; lane += kLanes<D>)
     set_up_spheres<D>(p, leaves.leaf(first), count, lane, setup);
-  hide_what_casts_none(prepared, p, primitives, count, setup.b_error.data(),
-                       -std::numeric_limits<float>::infinity());
+  hide_what_casts_none(prepared, p, primitives, count, setup.b_error.data(), -kInfinity);
   Pairs near;
   std::size_t size = 0;
   for (; groups != 0; groups &= groups - 1)

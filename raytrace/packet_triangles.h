@@ -89,14 +89,13 @@ void test_leaves(const Prepared& prepared, const PacketAxes& axes, const Triangl
   for (std::size_t k = 0; k < kLeavesTogether; ++k) {
     const std::size_t at = k * Bvh::kMaxLeaf;
     if (k >= entries.size()) {
-      std::fill_n(&setup.low_u[at], Bvh::kMaxLeaf, std::numeric_limits<float>::infinity());
+      std::fill_n(&setup.low_u[at], Bvh::kMaxLeaf, kInfinity);
       continue;
     }
     const PacketEntry& entry = entries[k];
     primitives[k] = &leaves.bvh.items[entry.first];
     if (set_up_leaf<D>(p, axes, leaves.leaf(entry.first), entry.count, at, setup)) groups |= entry.groups;
-    hide_what_casts_none(prepared, p, primitives[k], entry.count, &setup.low_u[at],
-                         std::numeric_limits<float>::infinity());
+    hide_what_casts_none(prepared, p, primitives[k], entry.count, &setup.low_u[at], kInfinity);
   }
   test_set_up<F>(p, setup, groups, primitives, counts);
 }

@@ -35,7 +35,7 @@ inline PacketPlane packet_plane(const RayPacket& p, const Bvh& bvh, const Vec3<d
     out.face[i] = (n[i] >= 0) == farthest ? i + 3 : i;
     offset += n[i] * (p.origin[axis] - bvh.center[axis]);
   }
-  const double slack = 0x1p-19 * l1(normal) * p.reach;
+  const double slack = 0x1p-19 * l1_norm(normal) * p.reach;
   out.offset = static_cast<float>(farthest ? offset - slack : offset + slack);
   return out;
 }
@@ -147,7 +147,7 @@ Groups spend(RayPacket& p, Groups groups, std::int32_t work) {
     return mask_bits<I>(budget < I(0));
   });
   for (Groups bits = over; bits != 0; bits &= bits - 1)
-    p.least_w[static_cast<std::size_t>(std::countr_zero(bits))] = std::numeric_limits<float>::infinity();
+    p.least_w[static_cast<std::size_t>(std::countr_zero(bits))] = kInfinity;
   return groups & ~over;
 }
 

@@ -10,12 +10,12 @@ void start(RayPacket& p) {
   for (std::size_t i = size; i < kGroup * groups; ++i) {
     p.u[i] = p.u[size - 1];
     p.v[i] = p.v[size - 1];
-    p.w[i] = std::numeric_limits<float>::infinity();
+    p.w[i] = kInfinity;
     p.own[i] = -1;
   }
   for (std::size_t g = groups; g < p.least_w.size(); ++g) {
-    p.group_u[0][g] = p.group_v[0][g] = std::numeric_limits<float>::infinity();
-    p.group_u[1][g] = p.group_v[1][g] = -std::numeric_limits<float>::infinity();
+    p.group_u[0][g] = p.group_v[0][g] = kInfinity;
+    p.group_u[1][g] = p.group_v[1][g] = -kInfinity;
   }
   p.primitive.fill(-1);
   p.asked.fill(0);

@@ -37,7 +37,6 @@ struct RayPacket {
   alignas(64) PerRay<std::int32_t> primitive;
   alignas(64) PerRay<std::int32_t> own;  // of shadow rays: the flat surface that asks, or -1
   bool any_hit = false;                  // shadow rays: the first one will do
-  bool all_cast = true;                  // whether every material casts shadows
   // Work left of each group of shadow rays (packet_walk.h): where it falls below 0 they are left as they are by then.
   alignas(64) PerGroup<std::int32_t> budget;
   // Whether anything at all was doubtful. If not, nothing but what is kept comes near to where the ray ends.

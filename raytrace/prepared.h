@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "common/math/max_norm.h"
+#include "common/math/norms.h"
 #include "common/model/place.h"
 #include "common/model/shading.h"
 #include "common/model/visibility.h"
@@ -53,6 +53,21 @@ class Prepared {
 };
 
 bool casts_shadow(const Scene& scene, std::uint32_t primitive);
+
+// Of a light along its shadow rays (blocker() below).
+[[gnu::always_inline]] inline double depth_of(const glm::dvec3* light) {
+  return light ? 1 : std::numeric_limits<double>::infinity();
+}
+
+// What find_hit() finds of the primitive, where that casts a shadow and stands before the light.
+template <class FindHit>
+[[gnu::always_inline]] inline Hit blocking_hit(const Prepared& prepared, std::uint32_t primitive,
+                                               const Ray& ray, const glm::dvec3* light,
+                                               VisibilityCounts& counts, const FindHit& find_hit) {
+  if (!prepared.all_cast_shadows && !casts_shadow(prepared.scene, primitive)) return {};
+  const Hit hit = find_hit();
+  return hit.found() && (!light || before_light(prepared.scene, hit, ray, *light, counts)) ? hit : Hit{};
+}
 
 // How triangles are decided: exactly, or as a fault on purpose (visibility_float.h).
 enum class Precision { exact, in_float };

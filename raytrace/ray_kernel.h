@@ -167,19 +167,13 @@ template <class F, class D>
   }
 }
 
-// Of a light along its shadow rays.
-[[gnu::always_inline]] inline double depth_of(const glm::dvec3* light) {
-  return light ? 1 : std::numeric_limits<double>::infinity();
-}
-
 // The hit of a candidate that casts a shadow and stands before the light.
-template <class Candidate>
-[[gnu::always_inline]] inline Hit blocking_hit(const Prepared& prepared, const Candidate& candidate,
+template <int kRows>
+[[gnu::always_inline]] inline Hit blocking_hit(const Prepared& prepared, const Candidate<kRows>& candidate,
                                                const Ray& ray, const glm::dvec3* light, const Hit& start,
                                                VisibilityCounts& counts) {
-  if (!prepared.all_cast_shadows && !casts_shadow(prepared.scene, candidate.primitive)) return {};
-  const Hit hit = candidate.hit(prepared.scene, ray, start, counts);
-  return hit.found() && (!light || before_light(prepared.scene, hit, ray, *light, counts)) ? hit : Hit{};
+  return blocking_hit(prepared, candidate.primitive, ray, light, counts,
+                      [&] { return candidate.hit(prepared.scene, ray, start, counts); });
 }
 
 // Whether there is one. Of a sphere that is surely met before the light no root is needed.

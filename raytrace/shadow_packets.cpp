@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/math/max_norm.h"
+#include "common/math/norms.h"
 #include "raytrace/secondary.h"
 
 namespace sidelight::raytrace {
@@ -61,8 +61,6 @@ void ShadowPackets::Extent::grow(const Extent& other) {
 ShadowPackets::ShadowPackets(const Prepared& prepared, Isa isa) : prepared_(prepared), isa_(isa) {
   packet_.any_hit = true;
   packet_.length = 1 + 2 * CubeFace::kWide;  // |axis| + |u U| + |v V|
-  packet_.all_cast = std::all_of(prepared.scene.materials.begin(), prepared.scene.materials.end(),
-                                 [](const Material& material) { return material.casts_shadow; });
   packet_.ask = ask;
   packet_.context = this;
 }
@@ -239,7 +237,7 @@ void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primit
   const Hit hit = intersect(scene, primitive, exact, kRayStart, counts);
   if (!hit.found() || !before_light(scene, hit, exact, self.light_->position, counts)) return;
   packet.primitive[ray] = static_cast<std::int32_t>(primitive);
-  packet.w[ray] = std::numeric_limits<float>::infinity();
+  packet.w[ray] = kInfinity;
 }
 
 }  // namespace sidelight::raytrace

@@ -29,7 +29,7 @@ class ShadowPackets {
  private:
   // What the rays of a group, or of more, have in common.
   struct Extent {
-    float low_u = std::numeric_limits<float>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
+    float low_u = kInfinity, high_u = -low_u, low_v = low_u, high_v = -low_u;
     float least_per_depth = low_u;
 
     void grow(const Extent& other);

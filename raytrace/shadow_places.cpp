@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "common/math/norms.h"
+
 namespace sidelight::raytrace {
 namespace {
 
@@ -32,9 +34,8 @@ void ShadowPlaces::resize(std::size_t size) {
 
 CubeFace face_towards(const glm::dvec3& point, const glm::dvec3& light) {
   const glm::dvec3 p = point - light;
-  const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
   CubeFace face;
-  face.axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+  face.axis = greatest_axis(std::abs(p.x), std::abs(p.y), std::abs(p.z));
   face.sign = p[face.axis] < 0 ? -1 : 1;
   face.light = light;
   const double depth = face.sign * p[face.axis];

@@ -107,7 +107,7 @@ void trace_in_waves(const Prepared& prepared, const Camera& camera, const Media&
 template <class Real>
 Frame render_in(const Prepared& prepared, const Camera& camera, const RenderOptions& options, bool in_waves) {
   const StandardFloatState nearest_and_denormals;
-  const bool secondary = prepared.needs[Need::mirrors] || prepared.needs[Need::refraction];
+  const bool secondary = prepared.needs.secondary_rays();
   constexpr LayerMask kBySecondary = layer_bit(Layer::reflection) | layer_bit(Layer::refraction);
   const LayerMask written = secondary ? kRaytraceLayers : kRaytraceLayers & ~kBySecondary;
   Frame frame = in_waves ? make_frame_to_write(camera.width, camera.height, camera.n, options, written)

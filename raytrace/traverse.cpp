@@ -33,16 +33,6 @@ void candidates(const Prepared& prepared, const Ray& ray, double limit, Visibili
   if (limit >= 0) counts.nodes += traverse(prepared.spheres.bvh, ray, limit, keep, isa);
 }
 
-// intersect_one: intersect, or intersect_in_float.
-template <auto intersect_one>
-Hit blocking_hit(const Scene& scene, std::uint32_t primitive, const Ray& ray, const glm::dvec3* light,
-                 const Hit& start, VisibilityCounts& counts) {
-  if (!casts_shadow(scene, primitive)) return {};
-  const Hit hit = intersect_one(scene, primitive, ray, start, counts);
-  if (hit.found() && (!light || before_light(scene, hit, ray, *light, counts))) return hit;
-  return {};
-}
-
 // The same questions for a fault on purpose, whose hits no filter knows.
 Hit nearest_in_float(const Prepared& prepared, const Ray& ray, const Hit& after, VisibilityCounts& counts,
                      Isa isa) {
@@ -58,9 +48,9 @@ Hit nearest_in_float(const Prepared& prepared, const Ray& ray, const Hit& after,
 Hit blocker_in_float(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                      VisibilityCounts& counts, Isa isa) {
   Hit found;
-  const double limit = light ? 1 : std::numeric_limits<double>::infinity();
-  candidates(prepared, ray, limit, counts, isa, [&](std::uint32_t primitive, double current) {
-    found = blocking_hit<intersect_in_float>(prepared.scene, primitive, ray, light, start, counts);
+  candidates(prepared, ray, depth_of(light), counts, isa, [&](std::uint32_t primitive, double current) {
+    found = blocking_hit(prepared, primitive, ray, light, counts,
+                         [&] { return intersect_in_float(prepared.scene, primitive, ray, start, counts); });
     return found.found() ? -1.0 : current;
   });
   return found;
@@ -76,6 +66,12 @@ Hit nearest_plane(const Prepared& prepared, const Ray& ray, const Hit& after, st
     if (hit.found() && before(hit, best)) best = hit;
   }
   return best;
+}
+
+Hit blocking_plane(const Prepared& prepared, std::uint32_t plane, const Ray& ray, const glm::dvec3* light,
+                   const Hit& start, VisibilityCounts& counts) {
+  return blocking_hit(prepared, plane, ray, light, counts,
+                      [&] { return intersect(prepared.scene, plane, ray, start, counts); });
 }
 
 }  // namespace
@@ -136,19 +132,17 @@ Hit blocker(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, V
             const Hit& start, Precision precision, Isa isa) {
   if (precision == Precision::in_float) return blocker_in_float(prepared, ray, light, start, counts, isa);
   if (!is_finite(ray)) return {};
-  for (const std::uint32_t primitive : prepared.planes)
-    if (const Hit hit = blocking_hit<intersect>(prepared.scene, primitive, ray, light, start, counts);
-        hit.found())
-      return hit;
+  for (const std::uint32_t plane : prepared.planes)
+    if (const Hit hit = blocking_plane(prepared, plane, ray, light, start, counts); hit.found()) return hit;
   return kernels_for(isa).blocker(prepared, ray, light, start, counts);
 }
 
 void find_blocked(const Prepared& prepared, std::span<ShadowQuestion> questions, const glm::dvec3* light,
                   VisibilityCounts& counts, Isa isa) {
-  for (const std::uint32_t primitive : prepared.planes)
+  for (const std::uint32_t plane : prepared.planes)
     for (auto& [ray, blocked] : questions)
       if (!blocked && is_finite(ray))
-        blocked = blocking_hit<intersect>(prepared.scene, primitive, ray, light, kRayStart, counts).found();
+        blocked = blocking_plane(prepared, plane, ray, light, kRayStart, counts).found();
   kernels_for(isa).blocked_of(prepared, questions, light, counts);
 }
 

@@ -15,7 +15,7 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
       camera_(camera),
       isa_(options.isa),
       primary_(options.primary),
-      secondary_(prepared.needs[Need::mirrors] || prepared.needs[Need::refraction]),
+      secondary_(prepared.needs.secondary_rays()),
       shadows_(scene_.trace.shadows && !prepared.tables.lights.empty()),
       want_parts_((options.layers & kLocalParts) != 0),
       want_shadow_((options.layers & layer_bit(Layer::shadow)) != 0),

@@ -159,8 +159,8 @@ class Wave {
   Enclosures enclosures_;
   Clearings& clearings_;
   ShadowQueries queries_;  // of entry i of batch b: [b kCapacity + i]
-  // Likewise: the solid around it, or Enclosures::kNone; empty where there surely is none.
-  std::vector<std::size_t> enclosing_;
+  // Likewise: the solid around it, or kNone; empty where there surely is none.
+  std::vector<std::uint32_t> enclosing_;
   std::vector<RayQuestion> questions_;
   std::vector<std::uint32_t> asking_;  // which are the rays of questions_
   std::vector<std::uint8_t> dark_;

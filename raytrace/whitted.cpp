@@ -35,7 +35,7 @@ Traced<Real> Whitted<Real, Recorder>::trace(const Path& arriving) {
   }
   out.object = surface.object;
 
-  const bool secondary = prepared_.needs[Need::mirrors] || prepared_.needs[Need::refraction];
+  const bool secondary = prepared_.needs.secondary_rays();
   glm::dvec3 from{0};  // where rays start that leave
   if (secondary || scene_.trace.shadows)
     from = leaving_point(prepared_, path.ray, out.hit, surface, stats_.visibility, isa_);

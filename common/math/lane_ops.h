@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a rasterizing kernel asks of lanes beyond arithmetic (lanes.h): extremes, questions about masks, numbered lanes,
-// and integers beside the floats. Each is exact, so that every lane type gives the same bits.
+// What kernels ask of lanes beyond arithmetic (lanes.h): extremes, questions about masks, numbered lanes, and integers
+// beside the reals. Each is exact, so that every lane type gives the same bits.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace sidelight {
 
-// 32-bit integers beside the floats F, lane for lane.
+// Signed integers of the element's size beside F, lane for lane: 32 bits for floats, 64 for doubles.
 template <class F>
 using Ints = decltype(to_bits(F{}));
 

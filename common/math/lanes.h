@@ -120,21 +120,13 @@ F from_bits(const Bits& bits) {
   return std::bit_cast<F>(bits);
 }
 
-// Between integers of F's size and F, lane by lane; to_integer truncates and wants values that fit.
+// From integers of F's size to F, lane by lane.
 template <class F, class Bits>
 F to_real(const Bits& i) {
   if constexpr (kLanes<F> == 1)
     return static_cast<F>(i);
   else
     return stdx::static_simd_cast<F>(i);
-}
-template <class F>
-auto to_integer(const F& x) {
-  using Bits = decltype(to_bits(x));
-  if constexpr (kLanes<F> == 1)
-    return static_cast<Bits>(x);
-  else
-    return stdx::static_simd_cast<Bits>(x);
 }
 
 // From doubles F to floats, lane by lane, each rounded once; and back.

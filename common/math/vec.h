@@ -3,7 +3,7 @@
 // it is what its memory held until it is set: arrays of them, filled step by step, are not zeroed first.
 #pragma once
 
-#include "common/math/lanes.h"
+#include "common/math/lane_ops.h"
 
 namespace sidelight {
 
@@ -28,6 +28,12 @@ Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+// As norms.h has it.
+template <class F>
+[[gnu::always_inline]] inline F l1_norm(const Vec3<F>& v) {
+  return (lane_abs<F>(v.x) + lane_abs<F>(v.y)) + lane_abs<F>(v.z);
+}
+
 template <class F>
 Vec3<F> select(const Mask<F>& mask, const Vec3<F>& if_true, const Vec3<F>& if_false) {
   return {select<F>(mask, if_true.x, if_false.x), select<F>(mask, if_true.y, if_false.y),
@@ -38,15 +44,6 @@ Vec3<F> select(const Mask<F>& mask, const Vec3<F>& if_true, const Vec3<F>& if_fa
 template <class F>
 [[gnu::always_inline]] inline Vec3<F> normalized(const Vec3<F>& v) {
   return (F(1) / square_root(dot(v, v))) * v;
-}
-
-// Unit length; a zero vector stays zero.
-template <class F>
-Vec3<F> unit(const Vec3<F>& v) {
-  const F length2 = dot(v, v);
-  const Mask<F> zero = length2 == F(0);
-  const F inverse = F(1) / square_root(select<F>(zero, F(1), length2));
-  return select<F>(zero, Vec3<F>{}, inverse * v);
 }
 
 }  // namespace sidelight

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Why a sample has its colour: plain records that the renderers' own code fills when it is given a recorder. A
-// recorder is a template parameter; the one below records nothing and costs nothing.
+// recorder is a template parameter (raytrace/recorder.h, raster/tile.h): that of a picture hears nothing and costs nothing.
 #pragma once
 
 #include <cstdint>

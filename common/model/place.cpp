@@ -6,15 +6,12 @@
 #include <glm/common.hpp>
 #include <vector>
 
+#include "common/math/norms.h"
+
 namespace sidelight {
 namespace {
 
 constexpr double kU = 0x1p-53;  // unit roundoff
-
-glm::dvec3 absolute(const glm::dvec3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
-double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
-// At least the length, and at most sqrt(3) times it.
-double size(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // ---- The clearance of a surface, by kind ----
 
@@ -41,7 +38,7 @@ double clearance_of(const Corners& corners, const glm::dvec3& outward) {
 
 glm::dvec3 outward_of(const Corners& corners) {
   const glm::dvec3 n = glm::cross(corners.v1 - corners.v0, corners.v2 - corners.v0);
-  return glm::normalize(n / largest(absolute(n)));
+  return glm::normalize(n / max_norm(n));
 }
 
 // ---- locate, by kind ----
@@ -122,13 +119,13 @@ Tangent tangent_at(const Scene& scene, std::uint32_t primitive, const glm::dvec3
 // How far the point may be off along the ray: as far as surfaces lie together, and never by more than the 2^-20 to
 // which values of edges and depths are good.
 double point_error(const Ray& ray, const Hit& hit, const Place& place) {
-  return std::min(place.together - hit.t, 0x1p-20 * hit.t) * size(ray.direction);
+  return std::min(place.together - hit.t, 0x1p-20 * hit.t) * l1_norm(ray.direction);
 }
 
 // The unit of moves: the clearance, and not 0 as that is in a plane through the origin, since the arriving ray is known
 // to u of its length at best.
 double step_of(const Ray& ray, const Hit& hit, const Place& place) {
-  return std::max(place.clearance, kU * hit.t * size(ray.direction));
+  return std::max(place.clearance, kU * hit.t * l1_norm(ray.direction));
 }
 
 // A start is moved aside a few times, and by up to kAside steps, so what lies within kNear of them matters.
@@ -141,15 +138,15 @@ bool may_be_near(const Scene& scene, std::uint32_t triangle, const Ray& ray, con
                  const Place& place) {
   const auto& [v0, v1, v2] = corners(scene, scene.triangles[triangle]);
   const glm::dvec3 low = glm::min(v0, glm::min(v1, v2)), high = glm::max(v0, glm::max(v1, v2));
-  const double room = nearness(ray, hit, place, largest(glm::max(-low, high)));
+  const double room = nearness(ray, hit, place, max_norm(glm::max(-low, high)));
   for (int i = 0; i < 3; ++i)
     if (place.point[i] < low[i] - room || place.point[i] > high[i] + room) return false;
   const glm::dvec3 p = place.point - v0, e1 = v1 - v0, e2 = v2 - v0, n = glm::cross(e1, e2);
-  const double area = size(e1) * size(e2);
-  if (std::abs(glm::dot(p, n)) > 2 * room * size(n) + 0x1p-48 * size(p) * area) return false;
+  const double area = l1_norm(e1) * l1_norm(e2);
+  if (std::abs(glm::dot(p, n)) > 2 * room * l1_norm(n) + 0x1p-48 * l1_norm(p) * area) return false;
   const auto beyond = [&](const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 edge = b - a, q = place.point - a;
-    return glm::dot(glm::cross(edge, q), n) < -(2 * room + 0x1p-48 * size(q)) * size(edge) * area;
+    return glm::dot(glm::cross(edge, q), n) < -(2 * room + 0x1p-48 * l1_norm(q)) * l1_norm(edge) * area;
   };
   return !beyond(v0, v1) && !beyond(v1, v2) && !beyond(v2, v0);
 }

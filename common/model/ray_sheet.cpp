@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/norms.h"
+
 namespace sidelight {
 namespace {
-
-glm::dvec3 absolute(const glm::dvec3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 
 // d . n over the sheet. Bound, relative to S = sum size_i m_i with m_i >= |n_i|: the rays' own rounding 8u, the dot
 // products W.n, U.n and V.n 3u each, the affine sum 5u, all of them on terms that S bounds: below 32u = 2^-48. An n that

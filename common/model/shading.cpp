@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "common/math/four.h"
-#include "common/math/max_norm.h"
+#include "common/math/norms.h"
 #include "common/model/shading_kernel.h"
 
 namespace sidelight {

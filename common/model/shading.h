@@ -64,7 +64,6 @@ struct ShadingBatch {
   // Results, c1 included: R = local (ka Ia + sum T_i), and its three parts, if asked for.
   alignas(64) Rgb unshadowed{}, ambient_layer{}, diffuse_layer{}, specular_layer{};
 
-  bool full() const { return size == kCapacity; }
   // Entry i. A batch takes the coefficients from the tables.
   void set(std::size_t i, const ShadingPoint<float>& point, std::uint32_t material_number);
 };

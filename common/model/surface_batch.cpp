@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/math/norms.h"
 #include "common/model/surface_kernel.h"
 #include "common/prefetch.h"
 #include "common/scene/primitive_finder.h"
@@ -65,9 +66,8 @@ void fetch(const Scene& scene, const ShadingTables& tables, SurfaceBatch& batch,
 }
 
 double longest_direction(const Camera& camera) {
-  const auto size = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
-  return (1 + 0x1p-40) *
-         (camera.columns() * size(camera.right) + camera.rows() * size(camera.up) + size(camera.axis_part()));
+  return (1 + 0x1p-40) * (camera.columns() * l1_norm(camera.right) + camera.rows() * l1_norm(camera.up) +
+                          l1_norm(camera.axis_part()));
 }
 
 Ray ray_of(const Camera& camera, const SurfaceBatch& batch, std::size_t i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The surfaces at many hits at once, of eye rays or of any rays, in structure-of-arrays form: what surface_at() and
-// shading_point() say of one hit, bit for bit, computed in lanes. Whoever collects hits of one kind of primitive in a SurfaceBatch gets a
-// ShadingBatch, ready to be shaded. surface_at() is the readable twin, and what decides wherever the lanes' own, coarser
-// certificates do not (a triangle seen nearly edge-on).
+// shading_point() say of one hit, bit for bit, computed in lanes. Whoever collects hits of one kind of primitive in a
+// SurfaceBatch gets a ShadingBatch, ready to be shaded. surface_at() is the readable twin, and what decides wherever the
+// lanes' own, coarser certificates do not (a triangle seen nearly edge-on).
 #pragma once
 
 #include <algorithm>

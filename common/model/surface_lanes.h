@@ -11,17 +11,13 @@ namespace sidelight {
 struct SurfaceView {
   const Scene& scene;
   Vec3<double> eye, right, up, axis;  // of the camera
-  double longest = 0;                 // size() of no eye ray's direction is more
+  double longest = 0;                 // l1_norm() of no eye ray's direction is more
   double length_scale = 1;            // of the shading tables: a power of two, so that nothing is rounded
 };
 
 template <class F>
 Vec3<F> wide(const Vec3<double>& v) {
   return {F(v.x), F(v.y), F(v.z)};
-}
-template <class F>
-F size(const Vec3<F>& v) {
-  return (lane_abs(v.x) + lane_abs(v.y)) + lane_abs(v.z);
 }
 template <class F>
 Vec3<F> absolute(const Vec3<F>& v) {

@@ -126,11 +126,11 @@ class TriangleSurfaces {
   // sure of each: it is off by less than 8 u |normal| |toward|, and so is what surface_at() makes of one between them.
   Mask<F> see_normals(std::size_t r, const Vec3<F>& toward) {
     const Vec3<F> n0 = vertex_normals(r, 0), n1 = vertex_normals(r, 1), n2 = vertex_normals(r, 2);
-    const Mask<F> flat = (size(n0) + size(n1)) + size(n2) == F(0);
+    const Mask<F> flat = (l1_norm(n0) + l1_norm(n1)) + l1_norm(n2) == F(0);
     const bool any_flat = any<F>(flat);
     const F side = dot(n0, toward), turn = select<F>(side < F(0), F(-1), F(1));
     const F apart = lane_min(lane_min(turn * side, turn * dot(n1, toward)), turn * dot(n2, toward));
-    const Mask<F> sure = apart > F(0x1p-46) * size(toward);
+    const Mask<F> sure = apart > F(0x1p-46) * l1_norm(toward);
     Vec3<F> turned = turn * n0;
     Vec3<F> to1 = turn * n1 - turned, to2 = turn * n2 - turned;
     if (any_flat || batch_.want_leaving) {
@@ -166,7 +166,7 @@ class TriangleSurfaces {
     if (batch_.shiny) sidelight::put(rounded(d), out_.to_viewer, i);
     std::array<F, 3> e;
     for (std::size_t k = 0; k < 3; ++k) e[k] = dot(d, of_run.vector(runs_.edge[k]));
-    const F all = (e[0] + e[1]) + e[2], size_of_d = batch_.own_rays ? size(d) : F(view_.longest);
+    const F all = (e[0] + e[1]) + e[2], size_of_d = batch_.own_rays ? l1_norm(d) : F(view_.longest);
     Mask<F> sure = all >= size_of_d * of_run(runs_.least_sum.data());
     for (F& each : e) each = lane_max(F(0), each);  // what rounding gave the other sign is 0
     const F per_sum = F(1) / ((e[0] + e[1]) + e[2]);

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/norms.h"
 #include "common/model/exact.h"
 
 namespace sidelight {
 namespace {
 
 constexpr double kU = 0x1p-53;  // unit roundoff
-
-glm::dvec3 absolute(const glm::dvec3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 
 // |a_j||b_k| + |a_k||b_j| for each component i.
 glm::dvec3 permanent(const glm::dvec3& a, const glm::dvec3& b) {

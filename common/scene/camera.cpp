@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/float_state.h"
-#include "common/math/max_norm.h"
+#include "common/math/norms.h"
 
 namespace sidelight {
 namespace {

@@ -81,8 +81,7 @@ Needs needs_of(const Scene& scene) {
     needs[Need::refraction] |= scene.trace.refraction && positive(scene.materials[i].refract);
   }
   needs[Need::overlapping_solids] = needs[Need::refraction] && any_solids_meet(scene);
-  needs[Need::secondary_attenuation] =
-      (needs[Need::mirrors] || needs[Need::refraction]) && falls(scene.trace.secondary_attenuation);
+  needs[Need::secondary_attenuation] = needs.secondary_rays() && falls(scene.trace.secondary_attenuation);
   for (const Light& light : scene.lights) {
     needs[Need::live_lights] |= positive(light.intensity);
     needs[Need::light_attenuation] |=

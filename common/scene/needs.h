@@ -40,6 +40,7 @@ struct Needs {
 
   bool operator[](Need need) const { return has[static_cast<std::size_t>(need)]; }
   bool& operator[](Need need) { return has[static_cast<std::size_t>(need)]; }
+  bool secondary_rays() const { return (*this)[Need::mirrors] || (*this)[Need::refraction]; }
 };
 
 Needs needs_of(const Scene& scene);

@@ -13,21 +13,21 @@ class PrimitiveFinder {
 
   PrimitiveRef operator()(std::uint32_t primitive) {
     if (primitive - object_.first_primitive >= object_.count)
-      object_ = bounds_of(scene_.objects[scene_.primitive_object[primitive]]);
+      object_ = numbers_of(scene_.objects[scene_.primitive_object[primitive]]);
     return {object_.kind, object_.first + (primitive - object_.first_primitive)};
   }
 
  private:
-  struct Bounds {
+  struct Numbers {
     ObjectKind kind = ObjectKind::sphere;
     std::uint32_t first = 0, first_primitive = 0, count = 0;
   };
-  static Bounds bounds_of(const Object& object) {
+  static Numbers numbers_of(const Object& object) {
     return {object.kind, object.first, object.first_primitive, object.count};
   }
 
   const Scene& scene_;
-  Bounds object_;  // the last one; at first none
+  Numbers object_;  // the last one; at first none
 };
 
 }  // namespace sidelight

@@ -4,17 +4,18 @@
 // bits. For loading, not for hot code.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include "common/math/norms.h"
 
 namespace sidelight {
 
 // v times the power of two that brings its largest component into [0.5, 1) in magnitude. Zero where v is zero
 // or has a component that is not finite.
 inline glm::dvec3 binary_scaled(const glm::dvec3& v) {
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  const double largest = max_norm(v);
   if (largest == 0 || !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return glm::dvec3(0);
   int exponent = 0;
   std::frexp(largest, &exponent);

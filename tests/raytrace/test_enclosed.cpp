@@ -114,7 +114,7 @@ TEST_CASE("enclosed points: inside of a ball every ray is blocked") {
     const glm::dvec3 from = center + radius * (1 - random.log_uniform(1e-17, 1)) * random.direction();
     raytrace::Media media;
     media.enter(0);
-    const std::size_t around = enclosures.around(from, media, false);
+    const std::uint32_t around = enclosures.around(from, media, false);
     if (!enclosures.hide(around, 0)) continue;
     ++hidden;
     VisibilityCounts counts;
