@@ -9,7 +9,6 @@
 #include "viewer/commands/all_modes.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/faulty.h"
-#include "viewer/commands/primary_flag.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
 #include "viewer/report/compare_report.h"

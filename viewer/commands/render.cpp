@@ -7,7 +7,6 @@
 
 #include "viewer/bench/front.h"
 #include "viewer/commands/commands.h"
-#include "viewer/commands/primary_flag.h"
 #include "viewer/commands/progress.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
@@ -21,10 +20,6 @@ struct RenderFlags {
   bool linear16 = false;
   int repeat = 0;
 };
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 LayerMask parse_layers(const RenderFlags& flags, const Renderer& renderer) {
   LayerMask mask = 0;
@@ -88,7 +83,7 @@ nlohmann::ordered_json stats_json(const Job& job, const Renderer& renderer, cons
 }
 
 int run_render(const RenderFlags& flags) {
-  const bool exr = ends_with(flags.output, ".exr"), png = ends_with(flags.output, ".png");
+  const bool exr = flags.output.ends_with(".exr"), png = flags.output.ends_with(".png");
   if (!exr && !png) throw UsageError("-o wants a file that ends in .exr or .png; got '" + flags.output + "'");
   if (!exr && !flags.layers.empty())
     throw UsageError("--layers needs an .exr file: a .png holds the colour only");
@@ -106,10 +101,10 @@ int run_render(const RenderFlags& flags) {
   std::vector<double> frame_ms, cpu;
   TimedFrame timed;
   if (flags.repeat > 0) {
-    timed = renderer->measure(job, job.options, flags.repeat, frame_ms, cpu);
+    timed = render_repeatedly(job, *renderer, flags.repeat, frame_ms, cpu);
   } else {
     const double cpu_start = cpu_ms();
-    timed = renderer->render(job, job.camera, job.options);
+    timed = render_once(job, *renderer, job.options);
     frame_ms = {timed.frame_ms};
     cpu = {cpu_ms() - cpu_start};
   }
