@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "viewer/bench/front.h"
 #include "viewer/bench/sweep.h"

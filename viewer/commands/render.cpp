@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
-
 #include "viewer/bench/front.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/progress.h"
@@ -43,40 +41,39 @@ LayerMask parse_layers(const RenderFlags& flags, const Renderer& renderer) {
   return mask;
 }
 
-nlohmann::ordered_json stats_json(const Job& job, const Renderer& renderer, const TimedFrame& timed,
-                                  const std::vector<double>& frame_ms, const std::vector<double>& cpu) {
+Json stats_json(const Job& job, const Renderer& renderer, const TimedFrame& timed,
+                const std::vector<double>& frame_ms, const std::vector<double>& cpu) {
   const RenderStats& stats = timed.frame.stats;
-  nlohmann::ordered_json frame = spread_json(spread_of(frame_ms));
+  Json frame = spread_json(spread_of(frame_ms));
   frame["runs"] = frame_ms.size();
   const VisibilityCounts& counts = stats.visibility;
-  nlohmann::ordered_json json{
-      {"renderer", renderer.name},
-      {"primary", renderer.name.starts_with("raster") ? "raster" : job.flags.primary},
-      {"scene", printable(job.flags.scene, 1000)},
-      {"scene_hash", job.scene.hash},
-      {"version", SIDELIGHT_VERSION},
-      {"width", job.scene.width},
-      {"height", job.scene.height},
-      {"spp", job.flags.spp},
-      {"threads", job.options.threads},
-      {"isa", isa_name(job.options.isa)},
-      {"triangles", job.scene.triangles.size()},
-      {"spheres", job.scene.spheres.size()},
-      {"planes", job.scene.planes.size()},
-      {"load_ms", job.load_ms},
-      {"build_ms", timed.build_ms},
-      {"frame_ms", frame},
-      {"cpu_ms", spread_json(spread_of(cpu))},
-      {"rays",
-       {{"primary", stats.rays.primary},
-        {"shadow", stats.rays.shadow},
-        {"reflection", stats.rays.reflection},
-        {"refraction", stats.rays.refraction}}},
-      {"tests", counts.tests},
-      {"exact", {{"filtered", counts.filtered}, {"double", counts.in_double}, {"exact", counts.exact}}},
-      {"self_shadowed", stats.self_shadowed},
-      {"cut_weight", stats.cut_weight},
-      {"peak_memory_mb", peak_memory_mb()}};
+  Json json{{"renderer", renderer.name},
+            {"primary", renderer.name.starts_with("raster") ? "raster" : job.flags.primary},
+            {"scene", printable(job.flags.scene, 1000)},
+            {"scene_hash", job.scene.hash},
+            {"version", SIDELIGHT_VERSION},
+            {"width", job.scene.width},
+            {"height", job.scene.height},
+            {"spp", job.flags.spp},
+            {"threads", job.options.threads},
+            {"isa", isa_name(job.options.isa)},
+            {"triangles", job.scene.triangles.size()},
+            {"spheres", job.scene.spheres.size()},
+            {"planes", job.scene.planes.size()},
+            {"load_ms", job.load_ms},
+            {"build_ms", timed.build_ms},
+            {"frame_ms", frame},
+            {"cpu_ms", spread_json(spread_of(cpu))},
+            {"rays",
+             {{"primary", stats.rays.primary},
+              {"shadow", stats.rays.shadow},
+              {"reflection", stats.rays.reflection},
+              {"refraction", stats.rays.refraction}}},
+            {"tests", counts.tests},
+            {"exact", {{"filtered", counts.filtered}, {"double", counts.in_double}, {"exact", counts.exact}}},
+            {"self_shadowed", stats.self_shadowed},
+            {"cut_weight", stats.cut_weight},
+            {"peak_memory_mb", peak_memory_mb()}};
   for (const StageTime& stage : stats.stages) json["stages_ms"][std::string(stage.name)] = stage.ms;
   if (job.options.faults.any()) json["faults"] = job.options.faults.text();
   return json;
