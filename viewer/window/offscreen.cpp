@@ -14,7 +14,6 @@
 #include <future>
 #include <memory>
 #include <mutex>
-#include <stdexcept>
 #include <vector>
 #endif
 
@@ -98,7 +97,8 @@ OsmesaContext make_context() {
                             3,
                             0};
   OsmesaContext context(OSMesaCreateContextAttribs(attributes, nullptr));
-  if (!context) throw std::runtime_error("OSMesa has no OpenGL 3.3 core context");
+  if (!context)
+    throw UsageError("OSMesa has no OpenGL 3.3 core context, so there are no pictures off screen");
   return context;
 }
 
@@ -112,8 +112,7 @@ Image8 draw_on_this_thread(int width, int height, const std::function<void(Canva
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const OsmesaContext context = make_context();
   if (OSMesaMakeCurrent(context.get(), rgba.data(), GL_UNSIGNED_BYTE, width, height) == 0)
-    throw std::runtime_error("OSMesa cannot draw into " + std::to_string(width) + "x" +
-                             std::to_string(height));
+    throw UsageError("OSMesa cannot draw into " + std::to_string(width) + "x" + std::to_string(height));
   OSMesaPixelStore(OSMESA_Y_UP, 0);  // top row first
   Canvas canvas(OSMesaGetProcAddress);
   draw(canvas);
