@@ -105,7 +105,7 @@ int run_render(const RenderFlags& flags) {
     frame_ms = {timed.frame_ms};
     cpu = {cpu_ms() - cpu_start};
   }
-  if (const std::string fault = first_non_finite(timed.frame); !fault.empty()) throw NumericalFault(fault);
+  check_finite(timed.frame, renderer->label);
 
   const Metadata metadata = job_metadata(job, std::string(renderer->name));
   if (exr)
