@@ -19,3 +19,12 @@ TEST_CASE("info names the materials of each object, and none of a mesh without f
   CHECK(outcome.out.find("mesh, materials a, b, 2 triangles, open") != std::string::npos);
   CHECK(outcome.out.find("mesh, no material, 0 triangles, open") != std::string::npos);
 }
+
+TEST_CASE("info writes the weight of a secondary ray as it is used: never above 1") {
+  const Workplace here;
+  write_bytes(here / "scene.toml", kGoodScene + "[trace]\nsecondary_attenuation = [0.5, 0.25, 2]\n");
+  const Outcome outcome = here.run({"info", "scene.toml"});
+  CAPTURE(outcome.out);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.find("w(r) 1/max(1, 0.5 + 0.25 r + 2 r²), ") != std::string::npos);
+}

@@ -181,6 +181,12 @@ Rect window_panel(glm::ivec2 picture, glm::ivec2 size, bool right) {
   return right ? layout.right : layout.left;
 }
 
+// Where side_by_side puts a picture of this size within its panel.
+Rect picture_box(const Rect& panel, glm::ivec2 picture) {
+  const glm::ivec2 corner(picture_origin(fit(View{}, picture, panel), panel));
+  return {corner.x, corner.y, corner.x + picture.x, corner.y + picture.y};
+}
+
 }  // namespace
 
 TEST_CASE("the pictures' bytes come through unchanged") {
@@ -188,10 +194,10 @@ TEST_CASE("the pictures' bytes come through unchanged") {
     const Image8 left = noise(size.x, size.y, 1), right = noise(size.x, size.y, 2);
     const Labels labels = labels_with("Odd sizes", true);
     const Image8 both = side_by_side(left, right, labels);
-    const PictureBoxes at = side_by_side_boxes(size, labels);
+    const Layout layout = make_layout({both.width, both.height}, layout_options(labels));
     CAPTURE(size.x);
-    CHECK(cropped(both, at.left).rgb == left.rgb);
-    CHECK(cropped(both, at.right).rgb == right.rgb);
+    CHECK(cropped(both, picture_box(layout.left, size)).rgb == left.rgb);
+    CHECK(cropped(both, picture_box(layout.right, size)).rgb == right.rgb);
   }
 }
 
@@ -227,7 +233,7 @@ TEST_CASE("a picture shown smaller keeps its mean") {
 TEST_CASE("title, captions and times leave ink in their lines, and only what is given") {
   const Image8 picture{400, 100, std::vector<std::uint8_t>(3 * 400 * 100, 0)};
   const Labels labels = labels_with("Mirror and glass \u03B7 \u2264 \u2014", true);
-  const LayoutOptions options = layout_options(labels, false);
+  const LayoutOptions options = layout_options(labels);
   const glm::ivec2 size = layout_size(panel_for({400, 100}, options), options);
   const Layout layout = make_layout(size, options);
   const Image8 both = side_by_side(picture, picture, labels);
@@ -253,10 +259,9 @@ TEST_CASE("a hostile title does no harm") {
     Labels labels = labels_with(title, true);
     labels.left.name = title;
     const Image8 both = side_by_side(left, right, labels);
-    const PictureBoxes at = side_by_side_boxes({80, 60}, labels);
-    CHECK(cropped(both, at.left).rgb == left.rgb);
-    CHECK(cropped(both, at.right).rgb == right.rgb);
-    const Layout layout = make_layout({both.width, both.height}, layout_options(labels, false));
+    const Layout layout = make_layout({both.width, both.height}, layout_options(labels));
+    CHECK(cropped(both, picture_box(layout.left, {80, 60})).rgb == left.rgb);
+    CHECK(cropped(both, picture_box(layout.right, {80, 60})).rgb == right.rgb);
     CHECK(ink(both, {layout.title.x1, 0, both.width, both.height}) == 0);  // nothing runs off the line
     CHECK(ink(both, {layout.left_caption.x1, layout.title.y1, layout.right_caption.x0, layout.left.y0}) == 0);
   }

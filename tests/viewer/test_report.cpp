@@ -107,6 +107,7 @@ TEST_CASE("report: text is escaped for content and attributes alike") {
   for (const char* mark :
        {"\u061C", "\u200E", "\u200F", "\u2028", "\u2029", "\u202A", "\u202E", "\u2066", "\u2069"})
     CHECK(escaped(mark).markup == "\uFFFD");
+  CHECK(escaped("\uFFFE|\uFFFF|\uFFFD").markup == "\uFFFD|\uFFFD|\uFFFD");  // no characters of XML
   CHECK(escaped("עברית").markup == "עברית");
 }
 

@@ -95,6 +95,23 @@ TEST_CASE("streams: on a terminal a bar that is gone at the end, and none with -
   CHECK(quiet.out.empty());
 }
 
+TEST_CASE("streams: a terminal that goes away takes the bar with it, not the picture") {
+  const Workplace here;
+  const std::string python = R"(
+import os, pty, subprocess, sys
+ours, theirs = pty.openpty()
+render = subprocess.Popen(sys.argv[1:], stderr=theirs)
+os.close(theirs)
+os.read(ours, 1)  # the bar has begun
+os.close(ours)
+sys.exit(render.wait() & 255))";
+  const Outcome outcome = here.command({"python3", "-c", python, SIDELIGHT_BINARY, "render", "good.toml",
+                                        "-o", "a.png", "--spp", "16", "-j", "1", "-r", long_render()});
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(std::filesystem::exists(here / "a.png"));
+}
+
 TEST_CASE("streams: data that standard output does not take is exit code 7") {
   const Workplace here;
   for (const Arguments& command :

@@ -84,7 +84,7 @@ struct BenchScene {
   ReferenceImage reference;
 };
 
-// One line of the summary: a point by its index, or a ratio by which two of them differ.
+// A scene's points of note, and what the front gains over the standard setting.
 struct SceneSummary {
   std::optional<std::size_t> standard, fastest_exact, most_accurate;  // indices into BenchResult::points
   std::optional<double> equal_error_speedup;  // front against the standard setting: time at its error

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "viewer/bench/front.h"
 #include "viewer/bench/sweep.h"
@@ -13,6 +12,7 @@
 #include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
 #include "viewer/commands/progress.h"
+#include "viewer/report/bench_plot.h"
 #include "viewer/report/bench_report.h"
 #include "viewer/report/bench_table.h"
 #include "viewer/report/shell_word.h"

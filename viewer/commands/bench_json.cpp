@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/commands/bench_json.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "common/error.h"
 #include "viewer/commands/result_json.h"
 
 namespace sidelight {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-template <class T>
-Json optional_json(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json measure_json(const ErrorMeasure& error) {
   const Json metrics = metrics_json(error.metrics);
@@ -60,14 +50,14 @@ Json reference_json(const BenchScene& scene, bool timed) {
             {"depth", image.depth},
             {"cut", image.cut},
             {"cut_weight", image.cut_weight},
-            {"unsent_bound", std::isfinite(image.unsent_bound) ? Json(image.unsent_bound) : Json(nullptr)},
+            {"unsent_bound", image.unsent_bound},
             {"rmse_steps", image.steps},
             {"bound", image.bound},
             {"converged", image.converged},
             {"finer", image.finer},
             {"too_dear", image.too_dear},
             {"remaining", image.remaining},
-            {"against_brute_force", optional_json(image.against_brute_force)}};
+            {"against_brute_force", or_null(image.against_brute_force)}};
   if (timed) json["ms"] = image.ms;
   return json;
 }
@@ -103,11 +93,11 @@ Json point_json(const BenchResult& result, const BenchPoint& point) {
 
 // Points by their number in `points`.
 Json summary_json(const SceneSummary& summary) {
-  return {{"standard", optional_json(summary.standard)},
-          {"fastest_exact", optional_json(summary.fastest_exact)},
-          {"most_accurate", optional_json(summary.most_accurate)},
-          {"equal_error_speedup", optional_json(summary.equal_error_speedup)},
-          {"equal_time_error", optional_json(summary.equal_time_error)}};
+  return {{"standard", or_null(summary.standard)},
+          {"fastest_exact", or_null(summary.fastest_exact)},
+          {"most_accurate", or_null(summary.most_accurate)},
+          {"equal_error_speedup", or_null(summary.equal_error_speedup)},
+          {"equal_time_error", or_null(summary.equal_time_error)}};
 }
 
 Json ratio_json(const std::optional<RatioOverScenes>& ratio) {

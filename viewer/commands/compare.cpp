@@ -4,12 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "viewer/commands/all_modes.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/faulty.h"
-#include "viewer/commands/primary_flag.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
 #include "viewer/report/compare_report.h"
@@ -24,13 +21,11 @@ struct CompareFlags {
   bool all_modes = false;
 };
 
-nlohmann::ordered_json cause_json(const Cause& cause) {
-  return {{"pixels", cause.pixels}, {"energy", cause.energy}};
-}
+Json cause_json(const Cause& cause) { return {{"pixels", cause.pixels}, {"energy", cause.energy}}; }
 
 std::string comparison_json(const Job& job, const Comparison& result, const Spoiled& spoiled,
                             const TimedFrame& rastered, const TimedFrame& traced) {
-  nlohmann::ordered_json json{{"width", result.width}, {"height", result.height}};
+  Json json{{"width", result.width}, {"height", result.height}};
   add_crop(json, traced.frame.window, job.scene.width, job.scene.height);
   json.update({{"primary", job.flags.primary},
                {"covered", result.covered},
@@ -43,11 +38,11 @@ std::string comparison_json(const Job& job, const Comparison& result, const Spoi
                  {"refraction", cause_json(result.refraction)}}},
                {"metrics", metrics_json(result.metrics)}});
   const auto times_json = [](const TimedFrame& t) {
-    return nlohmann::ordered_json{{"build", t.build_ms}, {"frame", t.frame_ms}};
+    return Json{{"build", t.build_ms}, {"frame", t.frame_ms}};
   };
   if (!job.flags.no_times)
     json["time_ms"] = {{"raster", times_json(rastered)}, {"raytrace", times_json(traced)}};
-  json["faults"] = nlohmann::ordered_json::object();
+  json["faults"] = Json::object();
   for (const FaultCount& each : spoiled.by_fault)
     json["faults"][std::string(fault_name(each.fault))] = each.pixels;
   return json.dump(2) + "\n";

@@ -2,16 +2,12 @@
 // sidelight diff: whether two pictures are near enough, or somebody's picture of a scene to ours.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "viewer/commands/commands.h"
 #include "viewer/commands/diff_scene.h"
 #include "viewer/commands/result_json.h"
 
 namespace sidelight {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct DiffFlags {
   JobFlags job;
@@ -38,11 +34,6 @@ void check_flags(const DiffFlags& flags) {
     throw UsageError("the first of the two is a picture; got the scene '" + flags.a + "'");
   if (!with_scene(flags) && flags.scene_flags->count_all() > 0)
     throw UsageError("flags that say how a scene is rendered want a scene (.toml) as the second of the two");
-}
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
 }
 
 Json findings_json(const PicturePair& pair, const Findings& found) {

@@ -7,16 +7,13 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "common/picture/compare.h"
-#include "viewer/commands/explain_text.h"
 #include "viewer/commands/renderers.h"
+#include "viewer/report/explain_words.h"
 
 namespace sidelight {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Bits of a set of terms, in the order of kCauseNames.
 using Terms = unsigned;
@@ -88,9 +85,6 @@ std::string explain_command(const Job& job, int x, int y) {
 
 std::string triple(const glm::vec3& v) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x, v.y, v.z); }
 
-// NaN and infinities become null.
-Json json_triple(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
-
 // The primitive that pixel i shows in ours; kNone for background.
 std::uint32_t primitive_at(const OurPictures& ours, std::size_t i) {
   const std::uint32_t id = ours.traced.primitive_id[i];
@@ -101,8 +95,8 @@ Json worst_json(const WorstPixel& pixel, const OurPictures& ours, const PictureP
   const std::size_t i = pixel.index;
   Json json{{"x", pair.x(i)},
             {"y", pair.y(i)},
-            {"picture", json_triple(pair.value(pair.a.color[i]))},
-            {"ours", json_triple(pair.value(ours.chosen().color[i]))},
+            {"picture", triple_json(pair.value(pair.a.color[i]))},
+            {"ours", triple_json(pair.value(ours.chosen().color[i]))},
             {"off", pair.differences[i]}};
   const std::uint32_t primitive = primitive_at(ours, i);
   for (const char* key : {"primitive", "object", "line", "material"}) json[key] = nullptr;
@@ -115,7 +109,7 @@ Json worst_json(const WorstPixel& pixel, const OurPictures& ours, const PictureP
     json["material"] = printable(scene.materials[primitive_material(scene, primitive)].name, 1000);
   }
   for (std::size_t t = 0; t < kCauseLayers.size(); ++t)
-    json[kCauseNames[t]] = json_triple(ours.traced.layer(kCauseLayers[t])[i]);
+    json[kCauseNames[t]] = triple_json(ours.traced.layer(kCauseLayers[t])[i]);
   json["equals"] = pixel.equals.empty() ? Json(nullptr) : Json(pixel.equals);
   json["explain"] = pixel.explain;
   return json;

@@ -5,12 +5,12 @@
 // does not do, or does too much. Only numbers speak: a pixel that no such sum gives stays without a reason.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "viewer/commands/job.h"
 #include "viewer/commands/picture_pair.h"
+#include "viewer/commands/result_json.h"
 
 namespace sidelight {
 
@@ -53,6 +53,6 @@ std::string account_text(const Account& account, const OurPictures& ours, const 
 // ours, off, primitive, object, line, material, shadow, reflection, refraction, equals, explain}]}. nearer is null
 // where both are equally near. picture, ours and off are in the values compared (picture_pair.h; the key "values" of the
 // findings), the terms always linear; off is null where not finite, equals where no sum fits.
-nlohmann::ordered_json account_json(const Account& account, const OurPictures& ours, const PicturePair& pair);
+Json account_json(const Account& account, const OurPictures& ours, const PicturePair& pair);
 
 }  // namespace sidelight

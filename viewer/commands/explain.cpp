@@ -4,16 +4,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "common/picture/frame.h"
 #include "raster/raster.h"
 #include "raytrace/raytrace.h"
 #include "viewer/commands/commands.h"
-#include "viewer/commands/explain_text.h"
 #include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
 #include "viewer/commands/result_json.h"
+#include "viewer/report/explain_words.h"
 
 namespace sidelight {
 namespace {
@@ -35,6 +34,98 @@ std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel,
                    raytrace::explain(*tracer, job.camera, X, Y)});
   }
   return out;
+}
+
+// ---- As JSON, and in words ----
+
+Json local_json(const Scene& scene, const LocalRecord& local) {
+  const std::uint32_t primitive = local.hit.primitive;
+  Json lights = Json::array();
+  for (const LightRecord& light : local.lights) {
+    Json one{{"light", light.light},
+             {"cosine", light.cosine},
+             {"highlight", light.highlight},
+             {"attenuation", light.arriving},
+             {"diffuse", triple_json(light.diffuse)},
+             {"specular", triple_json(light.specular)},
+             {"seen", light.seen},
+             {"self_shadowed", light.self_shadowed}};
+    one["blocker"] = light.blocker == kNone ? Json(nullptr) : Json(light.blocker);
+    lights.push_back(one);
+  }
+  return {{"primitive", primitive},
+          {"object", scene.primitive_object[primitive]},
+          {"line", scene.objects[scene.primitive_object[primitive]].where.line},
+          {"material", printable(scene.materials[local.surface.material].name, 1000)},
+          {"depth", local.hit.t},
+          {"point", triple_json(local.surface.point)},
+          {"normal", triple_json(local.surface.normal)},
+          {"c1", triple_json(local.local)},
+          {"ambient", triple_json(local.ambient)},
+          {"lights", lights}};
+}
+
+Json ray_json(const Scene& scene, const RayRecord& ray) {
+  Json json{{"kind", ray_name(ray.kind)},
+            {"sent", ray.sent},
+            {"coefficient", triple_json(ray.coefficient)},
+            {"falloff", ray.falloff},
+            {"depth", ray.depth},
+            {"path_weight", ray.path_weight},
+            {"origin", triple_json(ray.origin)},
+            {"direction", triple_json(ray.direction)},
+            {"color", triple_json(ray.color)}};
+  json["passed"] = Json::array();
+  for (const Hit& hit : ray.passed)
+    json["passed"].push_back({{"primitive", hit.primitive}, {"depth", hit.t}});
+  if (ray.sent) json["background"] = ray.background;
+  if (ray.sent && !ray.background) json["local"] = local_json(scene, ray.local);
+  json["children"] = Json::array();
+  for (const RayRecord& child : ray.children) json["children"].push_back(ray_json(scene, child));
+  return json;
+}
+
+Json raster_json(const Scene& scene, const RasterRecord& record) {
+  Json json{{"color", triple_json(record.color)}, {"fragments", Json::array()}};
+  for (const FragmentRecord& f : record.fragments)
+    json["fragments"].push_back({{"primitive", f.hit.primitive}, {"depth", f.hit.t}, {"kept", f.kept}});
+  json["background"] = record.background;
+  if (!record.background) json["local"] = local_json(scene, record.local);
+  return json;
+}
+
+std::string explanation_text(const Job& job, glm::ivec2 pixel, const std::vector<ExplainedSample>& samples) {
+  std::string out = fmt::format("pixel {},{} of {} at {}x{}\n", pixel.x, pixel.y,
+                                printable(job.flags.scene, 1000), job.scene.width, job.scene.height);
+  out += fmt::format("z-buffer    {}\n", color_text(mean_color(samples, Side::raster)));
+  out += fmt::format("ray tracer  {}\n", color_text(mean_color(samples, Side::raytrace)));
+  for (const ExplainedSample& sample : samples) {
+    if (samples.size() > 1) out += fmt::format("sample {},{}\n", sample.i, sample.j);
+    out += fmt::format("\nz-buffer: {}\n", color_text(sample.raster.color));
+    out += raster_words(job.scene, sample.raster, 1);
+    out += fmt::format("\nray tracer: {}\n", color_text(sample.raytrace.color));
+    out += ray_words(job.scene, sample.raytrace, 1);
+  }
+  return out;
+}
+
+// {pixel, color: {raster, raytrace}, samples: [{sample, raster: {color, fragments, local}, raytrace: RAY}]} with RAY =
+// {kind, sent, coefficient, falloff, depth, path_weight, origin, direction, passed, color, background or local,
+// children: [RAY]} and local = {primitive, object, line, material, depth, point, normal, c1, ambient, lights}. The
+// pixel's colours are the means of the samples given (as PixelMean takes them).
+Json explanation_json(const Job& job, glm::ivec2 pixel, const std::vector<ExplainedSample>& samples) {
+  Json json{{"scene", printable(job.flags.scene, 1000)},
+            {"scene_hash", job.scene.hash},
+            {"pixel", {pixel.x, pixel.y}},
+            {"color",
+             {{"raster", triple_json(mean_color(samples, Side::raster))},
+              {"raytrace", triple_json(mean_color(samples, Side::raytrace))}}}};
+  json["samples"] = Json::array();
+  for (const ExplainedSample& s : samples)
+    json["samples"].push_back({{"sample", {s.i, s.j}},
+                               {"raster", raster_json(job.scene, s.raster)},
+                               {"raytrace", ray_json(job.scene, s.raytrace)}});
+  return json;
 }
 
 void check_finite(const std::vector<ExplainedSample>& samples, glm::ivec2 pixel) {

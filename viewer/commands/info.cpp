@@ -14,8 +14,8 @@ namespace {
 
 std::string vector_text(const glm::dvec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
 
-std::string attenuation_text(const Attenuation& a) {
-  return fmt::format("1/({:g} + {:g} d + {:g} d²)", a.q0, a.q1, a.q2);
+std::string attenuation_text(const Attenuation& a, char distance) {
+  return fmt::format("{0:g} + {1:g} {3} + {2:g} {3}²", a.q0, a.q1, a.q2, distance);
 }
 
 // Of an object, each once; none of a mesh without faces.
@@ -65,8 +65,8 @@ void print_lights(const Scene& scene) {
       fmt::print("       directional {}, intensity {}\n", vector_text(light.direction),
                  vector_text(light.intensity));
     else
-      fmt::print("       point {}, intensity {}, attenuation {}\n", vector_text(light.position),
-                 vector_text(light.intensity), attenuation_text(light.attenuation));
+      fmt::print("       point {}, intensity {}, attenuation 1/({})\n", vector_text(light.position),
+                 vector_text(light.intensity), attenuation_text(light.attenuation, 'd'));
   }
 }
 
@@ -82,8 +82,8 @@ int run_info(const JobFlags& flags) {
   print_objects(scene);
   print_lights(scene);
   const auto on = [](bool value) { return value ? "on" : "off"; };
-  fmt::print("trace      depth {}, cut {:g}, w(r) {}, shadows {}, reflection {}, refraction {}\n",
-             trace.depth, trace.contribution_cut, attenuation_text(trace.secondary_attenuation),
+  fmt::print("trace      depth {}, cut {:g}, w(r) 1/max(1, {}), shadows {}, reflection {}, refraction {}\n",
+             trace.depth, trace.contribution_cut, attenuation_text(trace.secondary_attenuation, 'r'),
              on(trace.shadows), on(trace.reflection), on(trace.refraction));
   print_needs(scene);
   fmt::print("hash       {}\n", scene.hash);

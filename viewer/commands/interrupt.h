@@ -19,8 +19,8 @@ void restore_default_signals();
 // take their number and messages would end up in a picture: an empty input, an output that fails, messages unseen.
 void reserve_standard_streams();
 
-// Installs the handler for SIGINT and SIGTERM, and lets writes beyond a file-size limit fail instead of killing the
-// process (SIGXFSZ), so that they can be reported.
+// Installs the handler for SIGINT and SIGTERM, and lets writes beyond a file-size limit (SIGXFSZ) or to a reader that is
+// gone (SIGPIPE) fail instead of killing the process, so that they can be reported.
 void install_signal_handlers();
 
 }  // namespace sidelight

@@ -130,6 +130,14 @@ void add_render_flags(CLI::App& verb, JobFlags& flags) {
   verb.add_option("--isa", flags.isa, "force scalar, avx2 or avx512 (the picture is the same)");
 }
 
+void add_primary_flag(CLI::App& verb, JobFlags& flags) {
+  verb.add_option("--primary", flags.primary,
+                  "rays, or raster: the z-buffer finds what the ray tracer's samples show")
+      ->type_name("WHO")
+      ->check(CLI::IsMember({"rays", "raster"}).description(""))
+      ->capture_default_str();
+}
+
 void add_quiet_flag(CLI::App& verb, JobFlags& flags) {
   verb.add_flag("-q,--quiet", flags.quiet, "quiet: errors only");
 }

@@ -41,6 +41,8 @@ struct JobFlags {
 void add_job_flags(CLI::App& verb, JobFlags& flags);
 void add_render_flags(CLI::App& verb, JobFlags& flags);
 void add_quiet_flag(CLI::App& verb, JobFlags& flags);
+// --primary: who finds what each sample shows (renderers.h, with_primary).
+void add_primary_flag(CLI::App& verb, JobFlags& flags);
 
 // "640x480", sides from 1 to `longest`. Throws UsageError, which names the flag.
 glm::ivec2 parse_size(const std::string& text, const char* flag, int longest = 65535);

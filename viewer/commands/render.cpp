@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
-
 #include "viewer/bench/front.h"
 #include "viewer/commands/commands.h"
-#include "viewer/commands/primary_flag.h"
 #include "viewer/commands/progress.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
@@ -21,10 +18,6 @@ struct RenderFlags {
   bool linear16 = false;
   int repeat = 0;
 };
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 LayerMask parse_layers(const RenderFlags& flags, const Renderer& renderer) {
   LayerMask mask = 0;
@@ -48,47 +41,46 @@ LayerMask parse_layers(const RenderFlags& flags, const Renderer& renderer) {
   return mask;
 }
 
-nlohmann::ordered_json stats_json(const Job& job, const Renderer& renderer, const TimedFrame& timed,
-                                  const std::vector<double>& frame_ms, const std::vector<double>& cpu) {
+Json stats_json(const Job& job, const Renderer& renderer, const TimedFrame& timed,
+                const std::vector<double>& frame_ms, const std::vector<double>& cpu) {
   const RenderStats& stats = timed.frame.stats;
-  nlohmann::ordered_json frame = spread_json(spread_of(frame_ms));
+  Json frame = spread_json(spread_of(frame_ms));
   frame["runs"] = frame_ms.size();
   const VisibilityCounts& counts = stats.visibility;
-  nlohmann::ordered_json json{
-      {"renderer", renderer.name},
-      {"primary", renderer.name.starts_with("raster") ? "raster" : job.flags.primary},
-      {"scene", printable(job.flags.scene, 1000)},
-      {"scene_hash", job.scene.hash},
-      {"version", SIDELIGHT_VERSION},
-      {"width", job.scene.width},
-      {"height", job.scene.height},
-      {"spp", job.flags.spp},
-      {"threads", job.options.threads},
-      {"isa", isa_name(job.options.isa)},
-      {"triangles", job.scene.triangles.size()},
-      {"spheres", job.scene.spheres.size()},
-      {"planes", job.scene.planes.size()},
-      {"load_ms", job.load_ms},
-      {"build_ms", timed.build_ms},
-      {"frame_ms", frame},
-      {"cpu_ms", spread_json(spread_of(cpu))},
-      {"rays",
-       {{"primary", stats.rays.primary},
-        {"shadow", stats.rays.shadow},
-        {"reflection", stats.rays.reflection},
-        {"refraction", stats.rays.refraction}}},
-      {"tests", counts.tests},
-      {"exact", {{"filtered", counts.filtered}, {"double", counts.in_double}, {"exact", counts.exact}}},
-      {"self_shadowed", stats.self_shadowed},
-      {"cut_weight", stats.cut_weight},
-      {"peak_memory_mb", peak_memory_mb()}};
+  Json json{{"renderer", renderer.name},
+            {"primary", renderer.name.starts_with("raster") ? "raster" : job.flags.primary},
+            {"scene", printable(job.flags.scene, 1000)},
+            {"scene_hash", job.scene.hash},
+            {"version", SIDELIGHT_VERSION},
+            {"width", job.scene.width},
+            {"height", job.scene.height},
+            {"spp", job.flags.spp},
+            {"threads", job.options.threads},
+            {"isa", isa_name(job.options.isa)},
+            {"triangles", job.scene.triangles.size()},
+            {"spheres", job.scene.spheres.size()},
+            {"planes", job.scene.planes.size()},
+            {"load_ms", job.load_ms},
+            {"build_ms", timed.build_ms},
+            {"frame_ms", frame},
+            {"cpu_ms", spread_json(spread_of(cpu))},
+            {"rays",
+             {{"primary", stats.rays.primary},
+              {"shadow", stats.rays.shadow},
+              {"reflection", stats.rays.reflection},
+              {"refraction", stats.rays.refraction}}},
+            {"tests", counts.tests},
+            {"exact", {{"filtered", counts.filtered}, {"double", counts.in_double}, {"exact", counts.exact}}},
+            {"self_shadowed", stats.self_shadowed},
+            {"cut_weight", stats.cut_weight},
+            {"peak_memory_mb", peak_memory_mb()}};
   for (const StageTime& stage : stats.stages) json["stages_ms"][std::string(stage.name)] = stage.ms;
   if (job.options.faults.any()) json["faults"] = job.options.faults.text();
   return json;
 }
 
 int run_render(const RenderFlags& flags) {
-  const bool exr = ends_with(flags.output, ".exr"), png = ends_with(flags.output, ".png");
+  const bool exr = flags.output.ends_with(".exr"), png = flags.output.ends_with(".png");
   if (!exr && !png) throw UsageError("-o wants a file that ends in .exr or .png; got '" + flags.output + "'");
   if (!exr && !flags.layers.empty())
     throw UsageError("--layers needs an .exr file: a .png holds the colour only");
@@ -106,14 +98,14 @@ int run_render(const RenderFlags& flags) {
   std::vector<double> frame_ms, cpu;
   TimedFrame timed;
   if (flags.repeat > 0) {
-    timed = renderer->measure(job, job.options, flags.repeat, frame_ms, cpu);
+    timed = render_repeatedly(job, *renderer, flags.repeat, frame_ms, cpu);
   } else {
     const double cpu_start = cpu_ms();
-    timed = renderer->render(job, job.camera, job.options);
+    timed = render_once(job, *renderer, job.options);
     frame_ms = {timed.frame_ms};
     cpu = {cpu_ms() - cpu_start};
   }
-  if (const std::string fault = first_non_finite(timed.frame); !fault.empty()) throw NumericalFault(fault);
+  check_finite(timed.frame, renderer->label);
 
   const Metadata metadata = job_metadata(job, std::string(renderer->name));
   if (exr)

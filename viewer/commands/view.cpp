@@ -80,7 +80,7 @@ int run_view(const ViewFlags& flags) {
   if (flags.screenshot.empty()) {
     restore_default_signals();
     FrameLog log;
-    const int code = run_window(std::move(state), open, &log);
+    const int code = run_window(std::move(state), open, flags.frame_log.empty() ? nullptr : &log);
     if (!flags.frame_log.empty()) {
       write_text_file(flags.frame_log, log.csv());
       fmt::print(stderr, "{}", log.summary());

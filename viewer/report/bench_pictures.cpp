@@ -2,7 +2,8 @@
 #include "viewer/report/bench_pictures.h"
 
 #include <algorithm>
-#include <array>
+
+#include "viewer/report/embedded_picture.h"
 
 namespace sidelight {
 namespace {
@@ -11,7 +12,7 @@ bool same(const Image8& a, const Image8& b) {
   return a.width == b.width && a.height == b.height && a.rgb == b.rgb;
 }
 
-// The first point, from `first_of_scene` to i, whose picture by `member` is that of point i.
+// The first point of the scene whose picture by `member` is that of point i.
 std::size_t first_with(const BenchResult& result, std::size_t i, Image8 BenchPoint::*member) {
   for (std::size_t k = 0; k < i; ++k)
     if (result.points[k].scene == result.points[i].scene &&
@@ -46,27 +47,11 @@ std::size_t embed(const BenchResult& result, int factor, BenchPictures& out) {
 
 Image8 reduced(const Image8& image, int factor) {
   if (factor == 1) return image;
-  static const std::array<float, 256> kLinear = [] {
-    std::array<float, 256> table{};
-    for (std::size_t code = 0; code < table.size(); ++code)
-      table[code] = decode_srgb8(static_cast<std::uint8_t>(code));
-    return table;
-  }();
-  Image8 out{std::max(1, image.width / factor), std::max(1, image.height / factor), {}};
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x) {
-      glm::dvec3 sum(0);
-      int count = 0;
-      for (int j = y * factor; j < std::min((y + 1) * factor, image.height); ++j)
-        for (int i = x * factor; i < std::min((x + 1) * factor, image.width); ++i, ++count) {
-          const std::uint8_t* rgb =
-              &image.rgb[3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) +
-                              static_cast<std::size_t>(i))];
-          sum += glm::dvec3(kLinear[rgb[0]], kLinear[rgb[1]], kLinear[rgb[2]]);
-        }
-      for (int c = 0; c < 3; ++c) out.rgb.push_back(encode_srgb8(static_cast<float>(sum[c] / count)));
-    }
-  return out;
+  const std::vector<std::uint8_t>& rgb = image.rgb;
+  std::vector<glm::vec3> linear;
+  for (std::size_t i = 0; i < rgb.size(); i += 3)
+    linear.emplace_back(decode_srgb8(rgb[i]), decode_srgb8(rgb[i + 1]), decode_srgb8(rgb[i + 2]));
+  return reduced(linear, image.width, image.height, factor);
 }
 
 BenchPictures bench_pictures(const BenchResult& result) {

@@ -16,18 +16,16 @@ inline constexpr std::size_t kMostEmbedded = std::size_t{8} << 20;  // bytes as 
 struct BenchPictures {
   int reduction = 1;  // this many pixels, across and down, became one
   struct Entry {
-    Image8 picture, difference;  // reduced; empty where the point has none
-    std::size_t picture_as =
-        0;  // the first point of the scene with the same picture: itself, or an earlier one
-    std::size_t difference_as = 0;
+    Image8 picture, difference;  // reduced; empty where the point has none, or an earlier one the same
+    // The first point of the scene with the same picture: itself, or an earlier one.
+    std::size_t picture_as = 0, difference_as = 0;
   };
   std::vector<Entry> points;       // one a point
   std::vector<Image8> references;  // one a scene
 };
 BenchPictures bench_pictures(const BenchResult& result);
 
-// Blocks of factor x factor pixels become their mean, in linear light; what is left over at the edges is cut off, but a
-// picture keeps at least one pixel each way.
+// As of embedded_picture.h.
 Image8 reduced(const Image8& image, int factor);
 
 }  // namespace sidelight

@@ -9,7 +9,6 @@
 #include <map>
 #include <set>
 
-#include "viewer/report/bench_report.h"
 #include "viewer/report/bench_words.h"
 
 namespace sidelight {
@@ -85,7 +84,6 @@ Scatter scatter_of(const BenchResult& result, const std::string& title, const st
   return plot;
 }
 
-// The points' errors of one kind; those of their renderer's standard setting for comparison.
 double kind_error(const BenchPoint& point, std::size_t kind) {
   return point.by_kind[kind]->whole.metrics.rms;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,5 +22,16 @@ std::optional<Scatter> kind_scatter(const BenchResult& result, std::size_t scene
 
 // All of a scene's kinds, in small, with the same axes.
 std::vector<std::pair<ErrorKind, Scatter>> small_kind_scatters(const BenchResult& result, std::size_t scene);
+
+// The same as files, to cite.
+struct BenchPlot {
+  std::string name;  // of its file, such as "showcase-total.svg" or "showcase-sampling.svg"
+  std::string svg;  // empty where there is nothing to draw: no times, nothing finished, no error of this kind
+
+  bool operator==(const BenchPlot&) const = default;
+};
+// Four a scene, named by its file: ASCII letters, digits, "-" and "_" before the ".svg", the first no "-"; no two the
+// same.
+std::vector<BenchPlot> bench_plots(const BenchResult& result);
 
 }  // namespace sidelight

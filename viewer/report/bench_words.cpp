@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/bench/front.h"
+
 namespace sidelight {
 namespace {
 
@@ -27,7 +29,7 @@ std::string setting_words(const BenchResult& result, std::size_t index) {
   return out;
 }
 
-bool same_time(const Spread& a, const Spread& b) { return a.min <= b.max && b.min <= a.max; }
+bool same_time(const Spread& a, const Spread& b) { return !surely_faster(a, b) && !surely_faster(b, a); }
 
 }  // namespace
 

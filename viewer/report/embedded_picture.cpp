@@ -16,22 +16,24 @@ int embedding_reduction(const Frame& frame) {
   return factor;
 }
 
-Image8 embedded_picture(std::span<const glm::vec3> picture, const Frame& frame) {
-  const int factor = embedding_reduction(frame);
-  if (factor == 1) return to_image8(picture, frame.width(), frame.height());
-  const int width = std::max(1, frame.width() / factor), height = std::max(1, frame.height() / factor);
-  std::vector<glm::vec3> reduced;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+Image8 reduced(std::span<const glm::vec3> linear, int width, int height, int factor) {
+  const int across = std::max(1, width / factor), down = std::max(1, height / factor);
+  std::vector<glm::vec3> means;
+  for (int y = 0; y < down; ++y)
+    for (int x = 0; x < across; ++x) {
       PixelMean mean;
       int count = 0;
-      for (int j = y * factor; j < std::min((y + 1) * factor, frame.height()); ++j)
-        for (int i = x * factor; i < std::min((x + 1) * factor, frame.width()); ++i, ++count)
-          mean.add(picture[frame.index(frame.window.x0 + i, frame.window.y0 + j)]);
-      reduced.push_back(mean.mean(count));
+      for (int j = y * factor; j < std::min((y + 1) * factor, height); ++j)
+        for (int i = x * factor; i < std::min((x + 1) * factor, width); ++i, ++count)
+          mean.add(linear[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
+                          static_cast<std::size_t>(i)]);
+      means.push_back(mean.mean(count));
     }
-  }
-  return to_image8(reduced, width, height);
+  return to_image8(means, across, down);
+}
+
+Image8 embedded_picture(std::span<const glm::vec3> picture, const Frame& frame) {
+  return reduced(picture, frame.width(), frame.height(), embedding_reduction(frame));
 }
 
 }  // namespace sidelight

@@ -32,7 +32,9 @@ std::string_view inert(std::string_view sequence) {
     default:
       break;
   }
-  return is_harmful(code_point(sequence, 0, sequence.size())) ? kReplacement : sequence;
+  const char32_t code = code_point(sequence, 0, sequence.size());
+  const bool in_xml = code != 0xFFFE && code != 0xFFFF;  // which a plot's own file is
+  return is_harmful(code) || !in_xml ? kReplacement : sequence;
 }
 
 // By which whole factor a picture is enlarged on the page.

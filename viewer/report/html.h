@@ -30,8 +30,8 @@ struct Html {
 };
 
 // Text as inert HTML, for element content and quoted attributes alike: & < > " ' as entities; control characters, bytes
-// that are not UTF-8 and marks that turn the direction of writing replaced by U+FFFD; line breaks and tabs as spaces; cut
-// after `max_length` bytes with an ellipsis.
+// that are not UTF-8, marks that turn the direction of writing and what XML forbids replaced by U+FFFD; line breaks and
+// tabs as spaces; cut after `max_length` bytes with an ellipsis.
 Html escaped(std::string_view text, std::size_t max_length = 200);
 
 // What html() inserts for an argument.

@@ -24,7 +24,8 @@ struct LabelPlace {
 };
 
 // One a request, in their order: earlier ones choose first, next to the mark and then further away. Empty where no place
-// is free for any of its forms. Nothing overlaps `taken`; all stay within `frame`; `avoided` is overlapped only where nothing else is free.
+// is free for any of its forms. Nothing overlaps `taken`; all stay within `frame`; `avoided` is overlapped only where
+// nothing else is free.
 std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelRequest>& requests,
                                                     std::vector<Rectangle> taken,
                                                     const std::vector<Rectangle>& avoided,

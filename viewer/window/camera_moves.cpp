@@ -5,11 +5,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace sidelight {
 namespace {
 
-constexpr double kHalfTurn = 3.14159265358979323846;
 // The least angle between the viewing direction and up: nearer, the picture would roll at a touch.
 constexpr double kPole = 0.02;
 // What a scene file may say: half a power of ten inside of it, so that a saved scene loads again.
@@ -39,7 +39,7 @@ CameraSettings orbit(const CameraSettings& camera, double around, double over) {
   const glm::dvec3 arm = camera.eye - camera.look_at;
   const double length = glm::length(arm);
   const double height = std::asin(std::clamp(glm::dot(arm, up) / length, -1.0, 1.0));
-  const double limit = kHalfTurn / 2 - kPole;
+  const double limit = std::numbers::pi / 2 - kPole;
   const double turned = std::clamp(height + over, std::min(-limit, height), std::max(limit, height));
   const glm::dvec3 side = std::sin(around) * right + std::cos(around) * level;
 

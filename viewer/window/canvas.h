@@ -34,7 +34,7 @@ struct Fonts {
 
 class Canvas {
  public:
-  // Throws std::runtime_error if the OpenGL context lacks something.
+  // Throws UsageError if the OpenGL context lacks something.
   explicit Canvas(GlLoader loader, double scale = 1);
   ~Canvas();
   Canvas(const Canvas&) = delete;

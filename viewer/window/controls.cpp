@@ -94,35 +94,36 @@ void draw_material(const WindowState& state, Commands& out) {
   if (changed) edit(out, [material, i](Scene& scene) { scene.materials[i] = material; });
 }
 
-// Each with the value that shows it well; the command line has the others.
+// What is off goes on with the value that shows it well; the command line has the others. Behind ### stands a widget's
+// name, since its words change with the value.
 void draw_faults(const WindowState& state, Commands& out) {
   Faults faults = state.faults;
-  const double distance = glm::distance(state.camera.eye, state.camera.look_at);
-  const auto toggle = [](const char* label, auto& value, auto when_on) {
+  const auto toggle = [](const std::string& label, auto& value, auto when_on) {
     bool on = value.has_value();
-    if (ImGui::Checkbox(label, &on)) value = on ? std::optional(when_on) : std::nullopt;
+    if (ImGui::Checkbox(label.c_str(), &on)) value = on ? std::optional(when_on) : std::nullopt;
   };
   toggle("shadow rays start on the surface", faults.shadow_offset, 0.0);
-  toggle("16-bit depth", faults.depth_format, DepthFormat::unorm16);
-  faults.near_plane =
-      faults.depth_format ? (state.faults.depth_format ? faults.near_plane : 1e-3 * distance) : 0;
-  faults.far_plane =
-      faults.depth_format ? (state.faults.depth_format ? faults.far_plane : 1e3 * distance) : 0;
-  toggle("vertices on whole pixels", faults.snap_bits, 0);
-  toggle("spheres of 16 segments", faults.tessellate, 16);
+  const auto format = static_cast<std::size_t>(faults.depth_format.value_or(DepthFormat::unorm16));
+  toggle(fmt::format("depth stored as {}###depth", kDepthFormatNames[format]), faults.depth_format,
+         DepthFormat::unorm16);
+  if (!faults.depth_format)
+    faults.near_plane = faults.far_plane = 0;
+  else if (!state.faults.depth_format)
+    faults.set_usual_planes(glm::distance(state.camera.eye, state.camera.look_at));
+  const int bits = faults.snap_bits.value_or(0);
+  const std::string places = bits == 0 ? "whole pixels" : fmt::format("1/{} of a pixel", 1 << bits);
+  toggle("vertices on " + places + "###snap", faults.snap_bits, 0);
+  toggle(fmt::format("spheres of {} segments###spheres", faults.tessellate.value_or(16)), faults.tessellate,
+         16);
   ImGui::Checkbox("triangles in float", &faults.float_precision);
-  if (!(faults == state.faults)) out.push_back([faults](Session& session) { session.set_faults(faults); });
+  if (faults != state.faults) out.push_back([faults](Session& session) { session.set_faults(faults); });
 }
 
 }  // namespace
 
 void draw_controls(const Canvas& canvas, const WindowContents& contents, const Rect& box, Commands& out) {
   const WindowState& state = contents.state;
-  ImGui::SetNextWindowPos(point(box.x0, box.y0));
-  ImGui::SetNextWindowSize(point(box.width(), box.height()));
-  ImGui::Begin("##controls", nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  const DockWindow window("##controls", box, true);
   follow_keys(state, KeyTarget::controls);
   ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
   ImGui::TextWrapped(key_target(state) == KeyTarget::controls
@@ -145,7 +146,6 @@ void draw_controls(const Canvas& canvas, const WindowContents& contents, const R
     ImGui::SameLine();
   }
   ImGui::PopItemWidth();
-  ImGui::End();
 }
 
 }  // namespace sidelight

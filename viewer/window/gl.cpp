@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string>
 
 #include "common/error.h"
@@ -14,7 +13,7 @@ namespace {
 template <class Function>
 void fetch(GlLoader loader, Function& function, const char* name) {
   function = reinterpret_cast<Function>(loader(name));
-  if (function == nullptr) throw std::runtime_error(std::string("OpenGL has no ") + name);
+  if (function == nullptr) throw UsageError(std::string("OpenGL has no ") + name);
 }
 
 // The shader lives until the program that holds it is deleted; errors show when that is linked.
@@ -77,7 +76,7 @@ GlObject make_program(const Gl& gl, const char* vertex_source, const char* fragm
   if (linked == 0) {
     std::array<char, 1000> log{};
     gl.GetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw std::runtime_error("the window's shaders do not link: " + printable(log.data(), log.size()));
+    throw UsageError("the window's shaders do not link: " + printable(log.data(), log.size()));
   }
   return program;
 }

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <numbers>
 
+#include "viewer/report/plot_svg.h"
 #include "viewer/window/canvas.h"
 #include "viewer/window/paint.h"
 #include "viewer/window/window_panels.h"
@@ -15,7 +17,7 @@
 namespace sidelight {
 namespace {
 
-constexpr double kQuarter = 1.57079632679489661923;
+using std::numbers::pi;
 
 void text(const std::string& words) { ImGui::TextUnformatted(words.data(), words.data() + words.size()); }
 
@@ -93,13 +95,11 @@ void draw_lobe(const Canvas& canvas, const Lobe& lobe, const Rect& box) {
 
   const double mirrored = lobe.light_angle;
   const double viewer = mirrored + (lobe.towards_normal ? -lobe.view_angle : lobe.view_angle);
-  const auto radius = [&](double from_mirrored) {
-    return std::pow(std::max(0.0, std::cos(from_mirrored)), lobe.shininess);
-  };
+  const auto radius = [&](double from_mirrored) { return sidelight::lobe(from_mirrored, lobe.shininess); };
   constexpr int kPieces = 240;
   for (int i = 0; i <= kPieces; ++i) {
-    const double angle = (2.0 * i / kPieces - 1) * kQuarter;
-    if (std::abs(mirrored + angle) > kQuarter) continue;  // under the surface
+    const double angle = (2.0 * i / kPieces - 1) * pi / 2;
+    if (std::abs(mirrored + angle) > pi / 2) continue;  // under the surface
     list.PathLineTo(point(foot + reach * radius(angle) * towards(mirrored + angle)));
   }
   list.PathStroke(kLeftAccent, 0, width);
@@ -110,7 +110,7 @@ void draw_lobe(const Canvas& canvas, const Lobe& lobe, const Rect& box) {
   list.AddCircleFilled(point(foot + reach * radius(lobe.view_angle) * towards(viewer)), 2.5f * width,
                        kRightAccent);
   const std::string words = fmt::format("light {}:\ncos({:.1f}\u00B0)^{:g} = {:.4g}", lobe.light + 1,
-                                        lobe.view_angle * 90 / kQuarter, lobe.shininess, lobe.value);
+                                        lobe.view_angle * 180 / pi, lobe.shininess, lobe.value);
   list.AddText(&font, font.FontSize, point(box.x0, box.y1 - 2.2 * line), kText, words.c_str());
 }
 
@@ -146,8 +146,9 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
       out.push_back([](Session& session) { session.act(Action::copy_command, {}); });
     const int x = static_cast<int>(top.x + side + gap);
     if (const std::optional<Lobe> lobe = specular_lobe(inspection))
-      draw_lobe(canvas, *lobe,
-                {x, static_cast<int>(top.y + 2 * ImGui::GetFontSize()), x + static_cast<int>(middle), box.y1});
+      draw_lobe(
+          canvas, *lobe,
+          {x, static_cast<int>(top.y + 2 * ImGui::GetFontSize()), x + static_cast<int>(middle), box.y1});
   }
   ImGui::SetCursorScreenPos({top.x + whole - side, top.y});
   column(canvas, contents.state, KeyTarget::rays, side,

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/window/offscreen.h"
 
+#include <imgui.h>
+
+#include <glm/common.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "common/error.h"
 #include "viewer/window/canvas.h"
+#include "viewer/window/paint.h"
 #include "viewer/window/window_panels.h"
 
 #ifdef SIDELIGHT_HAVE_OSMESA
@@ -14,40 +19,55 @@
 #include <future>
 #include <memory>
 #include <mutex>
-#include <stdexcept>
 #include <vector>
 #endif
 
 namespace sidelight {
 namespace {
 
-Image8 draw_comparison_offscreen(const Image8& left, const Image8& right, const Labels& labels,
-                                 glm::ivec2 size, const Layout& layout) {
-  check_pictures(left, right);
-  return draw_offscreen(size.x, size.y, [&](Canvas& canvas) {
-    const ShownPictures pictures{
-        canvas.add_picture(left), canvas.add_picture(right), {left.width, left.height}};
-    const View view = fit(View{}, pictures.size, layout.left);
-    canvas.draw(size.x, size.y, [&] { draw_comparison(canvas, pictures, labels, layout, view); });
-  });
+// Throws std::invalid_argument, naming both sizes, unless the pictures have one size, of at least 1x1, and as many bytes
+// as that needs.
+void check_pictures(const Image8& left, const Image8& right) {
+  const auto bytes = [](const Image8& image) {
+    return 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  };
+  const auto name = [](const Image8& image) {
+    return std::to_string(image.width) + "x" + std::to_string(image.height) + " (" +
+           std::to_string(image.rgb.size()) + " bytes)";
+  };
+  const bool same = left.width == right.width && left.height == right.height;
+  if (!same || left.width < 1 || left.height < 1 || left.rgb.size() != bytes(left) ||
+      right.rgb.size() != bytes(right))
+    throw std::invalid_argument("pictures that cannot stand side by side: " + name(left) + " and " +
+                                name(right));
+}
+
+// Both pictures at zoom 1 into the whole of the canvas, within Canvas::draw.
+void draw_comparison(const Canvas& canvas, ImTextureID left, ImTextureID right, glm::ivec2 size,
+                     const Labels& labels, const Layout& layout) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  draw_line(list, *canvas.fonts().title, layout.title, kText, labels.title);
+  const View view = fit(View{}, size, layout.left);
+  const glm::dvec2 inset = picture_origin(view, layout.left) - glm::dvec2(layout.left.x0, layout.left.y0);
+  const Layout at = with_captions_at(layout, glm::ivec2(glm::max(inset, glm::dvec2(0))), canvas.scale());
+  draw_caption(canvas, list, labels.left, kLeftAccent, at.left_caption, at.left_times);
+  draw_picture(list, left, size, view, at.left);
+  draw_caption(canvas, list, labels.right, kRightAccent, at.right_caption, at.right_times);
+  draw_picture(list, right, size, view, at.right);
 }
 
 }  // namespace
 
 Image8 side_by_side(const Image8& left, const Image8& right, const Labels& labels) {
-  const LayoutOptions options = layout_options(labels, false);
-  const glm::ivec2 size = layout_size(panel_for({left.width, left.height}, options), options);
-  return draw_comparison_offscreen(left, right, labels, size, make_layout(size, options));
-}
-
-PictureBoxes side_by_side_boxes(glm::ivec2 picture, const Labels& labels) {
-  const LayoutOptions options = layout_options(labels, false);
-  const Layout layout = make_layout(layout_size(panel_for(picture, options), options), options);
-  const auto box = [&](const Rect& panel) {
-    const glm::ivec2 corner(picture_origin(fit(View{}, picture, panel), panel));
-    return Rect{corner.x, corner.y, corner.x + picture.x, corner.y + picture.y};
-  };
-  return {box(layout.left), box(layout.right)};
+  check_pictures(left, right);
+  const LayoutOptions options = layout_options(labels);
+  const glm::ivec2 picture(left.width, left.height), size = layout_size(panel_for(picture, options), options);
+  return draw_offscreen(size.x, size.y, [&](Canvas& canvas) {
+    const ImTextureID at_left = canvas.add_picture(left), at_right = canvas.add_picture(right);
+    canvas.draw(size.x, size.y, [&] {
+      draw_comparison(canvas, at_left, at_right, picture, labels, make_layout(size, options));
+    });
+  });
 }
 
 Image8 screenshot(const WindowState& state, const Pictures& pictures, int width, int height) {
@@ -98,7 +118,8 @@ OsmesaContext make_context() {
                             3,
                             0};
   OsmesaContext context(OSMesaCreateContextAttribs(attributes, nullptr));
-  if (!context) throw std::runtime_error("OSMesa has no OpenGL 3.3 core context");
+  if (!context)
+    throw UsageError("OSMesa has no OpenGL 3.3 core context, so there are no pictures off screen");
   return context;
 }
 
@@ -112,8 +133,7 @@ Image8 draw_on_this_thread(int width, int height, const std::function<void(Canva
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const OsmesaContext context = make_context();
   if (OSMesaMakeCurrent(context.get(), rgba.data(), GL_UNSIGNED_BYTE, width, height) == 0)
-    throw std::runtime_error("OSMesa cannot draw into " + std::to_string(width) + "x" +
-                             std::to_string(height));
+    throw UsageError("OSMesa cannot draw into " + std::to_string(width) + "x" + std::to_string(height));
   OSMesaPixelStore(OSMESA_Y_UP, 0);  // top row first
   Canvas canvas(OSMesaGetProcAddress);
   draw(canvas);

@@ -6,8 +6,8 @@
 // OSMesa's buffer. May be called from any thread, but not from within Canvas::draw. Equal arguments give
 // equal bytes.
 //
-// Where the program was built without OSMesa (Mesa 25.1 dropped it) each function throws UsageError saying
-// so.
+// Where the program was built without OSMesa (Mesa 25.1 dropped it), or OSMesa has no OpenGL 3.3, each function throws
+// UsageError saying so.
 #pragma once
 
 #include <functional>
@@ -18,6 +18,8 @@
 
 namespace sidelight {
 
+class Canvas;
+
 inline constexpr int kLongestOffscreen = 16384;  // side that OSMesa can draw
 
 // Runs `draw` with a fresh canvas and returns what it drew by Canvas::draw, which it must call with this
@@ -27,12 +29,6 @@ Image8 draw_offscreen(int width, int height, const std::function<void(Canvas&)>&
 // Both pictures at zoom 1, their own bytes, with title and captions; the size follows from the pictures.
 // Throws std::invalid_argument unless the pictures have one size.
 Image8 side_by_side(const Image8& left, const Image8& right, const Labels& labels);
-
-// Where side_by_side puts the left and the right picture.
-struct PictureBoxes {
-  Rect left, right;
-};
-PictureBoxes side_by_side_boxes(glm::ivec2 picture, const Labels& labels);
 
 // What a window of this size shows of the state, with everything drawn to the end: the window's own pixels.
 Image8 screenshot(const WindowState& state, const Pictures& pictures, int width, int height);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/window/paint.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
-#include <cstdio>
 #include <glm/common.hpp>
 #include <string_view>
 
@@ -27,11 +29,7 @@ std::string ellipsised(const ImFont& font, const std::string& text, float width)
   return std::string(text.data(), cut).append(dots);
 }
 
-std::string milliseconds(double ms) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*f ms", ms < 10 ? 2 : ms < 100 ? 1 : 0, ms);
-  return text;
-}
+std::string milliseconds(double ms) { return fmt::format("{:.{}f} ms", ms, ms < 10 ? 2 : ms < 100 ? 1 : 0); }
 
 }  // namespace
 
@@ -87,12 +85,7 @@ void draw_picture(ImDrawList& list, ImTextureID texture, glm::ivec2 size, const 
 }
 
 std::string zoom_text(double zoom) {
-  char text[40];
-  if (zoom >= 1)
-    std::snprintf(text, sizeof text, "zoom %.0f\u00D7", zoom);
-  else
-    std::snprintf(text, sizeof text, "zoom %.0f %%", 100 * zoom);
-  return text;
+  return zoom >= 1 ? fmt::format("zoom {:.0f}\u00D7", zoom) : fmt::format("zoom {:.0f} %", 100 * zoom);
 }
 
 }  // namespace sidelight

@@ -9,8 +9,11 @@
 #include <string>
 
 #include "viewer/window/panels.h"
+#include "viewer/window/view.h"
 
 namespace sidelight {
+
+class Canvas;
 
 inline constexpr ImU32 kPage = IM_COL32(22, 24, 29, 255);
 inline constexpr ImU32 kFrame = IM_COL32(84, 90, 102, 255);

@@ -13,7 +13,7 @@ constexpr double kTurn = 0.06, kSlide = 0.05,
                  kDolly = 0.9;     // a key press: radians, picture heights, a factor
 constexpr double kDragTurn = 4.0;  // radians for a drag over the panel's height
 constexpr double kSwipeStep = 0.05;
-constexpr int kMostSamples = 8;  // per pixel edge, by the keys
+constexpr int kMostSamples = 8;  // per pixel edge, by keys and controls; a command line may begin with more
 
 glm::dvec2 middle(const Rect& panel) { return {(panel.x0 + panel.x1) / 2.0, (panel.y0 + panel.y1) / 2.0}; }
 double height(const Rect& panel) { return std::max(1, panel.height()); }
@@ -227,7 +227,7 @@ void Session::dolly_by(int steps) { move_camera(dolly(state_.camera, std::pow(kD
 void Session::redraw() { worker_.submit(picture_task(state_)); }
 
 void Session::set_samples_per_edge(int n) {
-  const int wanted = std::clamp(n, 1, kMostSamples);
+  const int wanted = std::clamp(n, 1, std::max(kMostSamples, state_.n));
   if (wanted == state_.n) return;
   state_.n = wanted;
   redraw();

@@ -141,6 +141,7 @@ void Session::reset() {
   start_over(state_);
   state_.step = -1;
   state_.revealed = false;
+  if (state_.inspected && !inside(*state_.scene, *state_.inspected)) state_.inspected.reset();
   state_.notice = {};
   redraw();
 }

@@ -135,8 +135,9 @@ class ShownMaker {
     return out;
   }
 
-  ShownPanel colors(std::string name, Colors colors, bool of_left) const {
-    ShownPanel out = of_left ? left(std::move(name)) : right(std::move(name));
+  // A sum that begins with the z-buffer's picture.
+  ShownPanel sum(std::string name, Colors colors) const {
+    ShownPanel out = left(std::move(name));
     out.image = picture_of(*pictures_.traced, colors);
     out.numbers =
         numbers_of(pictures_.traced, full(),
@@ -147,7 +148,8 @@ class ShownMaker {
 
   // The map's colours say which; the numbers under the glass say how much.
   ShownPanel difference(std::string name, Colors map) const {
-    ShownPanel out = colors(std::move(name), map, false);
+    ShownPanel out = right(std::move(name));
+    out.image = picture_of(*pictures_.traced, map);
     out.numbers =
         numbers_of(pictures_.traced, full(), [r = pictures_.rastered](const Frame& f, std::size_t i) {
           return number_lines(f.color[i] - r->color[i]);
@@ -188,8 +190,7 @@ std::vector<ShownPanel> ledger(const WindowState& state, const Pictures& finishe
                                              "R \u2212 S + M + G: plus what is refracted"};
   const auto sums = ledger_sums(*finished.rastered, *finished.traced);
   const auto term = static_cast<std::size_t>(state.ledger_term);
-  std::vector<ShownPanel> out{maker.colors(kSums[term], sums[term], true), maker.raytrace()};
-  return out;
+  return {maker.sum(kSums[term], sums[term]), maker.raytrace()};
 }
 
 std::vector<ShownPanel> panels(const WindowState& state, const Pictures& latest, const Pictures& finished) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/picture/srgb.h"
 #include "viewer/window/panels.h"
 #include "viewer/window/state.h"
 

@@ -229,11 +229,11 @@ void follow_keys(const WindowState& state, KeyTarget target) {
   list.AddRect(low, {low.x + size.x, low.y + size.y}, kText, 4, 0, 3);
 }
 
-DockWindow::DockWindow(const char* name, const Rect& box) {
+DockWindow::DockWindow(const char* name, const Rect& box, bool scrollbar) {
   ImGui::SetNextWindowPos(point(box.x0, box.y0));
   ImGui::SetNextWindowSize(point(box.width(), box.height()));
-  ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  const int decoration = ImGuiWindowFlags_NoDecoration & ~(scrollbar ? ImGuiWindowFlags_NoScrollbar : 0);
+  ImGui::Begin(name, nullptr, decoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
 }
 DockWindow::~DockWindow() { ImGui::End(); }
 

@@ -71,10 +71,10 @@ std::uint32_t segment_color(SegmentKind kind);
 // Within a widget window: it has the keyboard, and says so by its frame, if keys go to `target`.
 void follow_keys(const WindowState& state, KeyTarget target);
 
-// A widget window without decoration, exactly in `box`, while it lives.
+// A widget window without decoration, but a scrollbar if wanted, exactly in `box`, while it lives.
 class DockWindow {
  public:
-  DockWindow(const char* name, const Rect& box);
+  DockWindow(const char* name, const Rect& box, bool scrollbar = false);
   ~DockWindow();
   DockWindow(const DockWindow&) = delete;
   DockWindow& operator=(const DockWindow&) = delete;
