@@ -33,9 +33,14 @@ void parallel_for(int items, int threads, const std::function<void(int item, int
     }
   };
 
-  // The caller is worker 0, so one thread means no thread at all.
+  // The caller is worker 0, so one thread means no thread at all. Where the system has no more of them to give (a limit of
+  // processes or of memory), those that there are share the work.
   std::vector<std::thread> pool;
-  for (int t = 1; t < workers; ++t) pool.emplace_back(work, t);
+  pool.reserve(static_cast<std::size_t>(workers - 1));
+  try {
+    for (int t = 1; t < workers; ++t) pool.emplace_back(work, t);
+  } catch (const std::exception&) {
+  }
   work(0);
   for (std::thread& thread : pool) thread.join();
   if (failure) std::rethrow_exception(failure);
