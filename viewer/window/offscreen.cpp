@@ -98,7 +98,7 @@ OsmesaContext make_context() {
                             3,
                             0};
   OsmesaContext context(OSMesaCreateContextAttribs(attributes, nullptr));
-  if (!context) throw std::runtime_error("OSMesa has no OpenGL 3.3 core context");
+  if (!context) throw OutputError("nothing can be drawn off screen: OSMesa has no OpenGL 3.3 core context");
   return context;
 }
 
@@ -112,8 +112,8 @@ Image8 draw_on_this_thread(int width, int height, const std::function<void(Canva
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const OsmesaContext context = make_context();
   if (OSMesaMakeCurrent(context.get(), rgba.data(), GL_UNSIGNED_BYTE, width, height) == 0)
-    throw std::runtime_error("OSMesa cannot draw into " + std::to_string(width) + "x" +
-                             std::to_string(height));
+    throw OutputError("nothing can be drawn off screen: OSMesa cannot draw into " + std::to_string(width) +
+                      "x" + std::to_string(height));
   OSMesaPixelStore(OSMESA_Y_UP, 0);  // top row first
   Canvas canvas(OSMesaGetProcAddress);
   draw(canvas);
