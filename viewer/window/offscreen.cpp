@@ -14,7 +14,6 @@
 #include <future>
 #include <memory>
 #include <mutex>
-#include <stdexcept>
 #include <vector>
 #endif
 
