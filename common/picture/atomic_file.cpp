@@ -92,13 +92,16 @@ int write_directly(const fs::path& path, const Contents& contents) {
 
 int write_whole(const fs::path& path, const Contents& contents) {
   if (!path.has_filename()) return path.empty() ? ENOENT : EISDIR;
-  std::error_code ignored;  // what cannot be looked at shows when the temporary is opened
-  const fs::file_status status = fs::status(path, ignored);
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::status_known(status)) return error.value();  // a link that leads to itself, say
   if (fs::is_directory(status)) return EISDIR;
   if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(path, contents);
-  // Through a link, so that the link stays one.
-  const fs::path target = fs::exists(status) ? fs::canonical(path, ignored) : path;
-  return write_beside_and_rename(target.empty() ? path : target, contents);
+  // Through links, so that they stay links, even where the last leads to what is not there yet.
+  fs::path target = path;
+  while (fs::is_symlink(fs::symlink_status(target, error)))
+    target = target.parent_path() / fs::read_symlink(target, error);
+  return write_beside_and_rename(target, contents);
 }
 
 void write_or_throw(const std::string& path, const Contents& contents) {
@@ -119,7 +122,7 @@ void write_text_file(const std::string& path, const std::string& text) {
 
 void write_text_file(const std::string& path, const std::function<void(const AppendText&)>& produce) {
   write_or_throw(path, [&](OutputFile& file) {
-    constexpr std::size_t kPiece = 1 << 16;   // bytes written at once
+    constexpr std::size_t kPiece = 1 << 16;  // bytes written at once
     std::string piece;
     int error = 0;
     const auto flush = [&] {

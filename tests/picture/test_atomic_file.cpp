@@ -154,6 +154,23 @@ TEST_CASE("a link stays a link") {
   CHECK(read_bytes(folder / "elsewhere/target") == "new");
 }
 
+TEST_CASE("a link to what is not there yet stays one, and one to itself is no place to write") {
+  const TemporaryFolder folder;
+  make_folder(folder / "elsewhere");
+  REQUIRE(::symlink("second", (folder / "first").c_str()) == 0);
+  REQUIRE(::symlink("elsewhere/target", (folder / "second").c_str()) == 0);
+  write_text_file(folder / "first", "new");
+  CHECK(std::filesystem::is_symlink(folder / "first"));
+  CHECK(std::filesystem::is_symlink(folder / "second"));
+  CHECK(read_bytes(folder / "elsewhere/target") == "new");
+
+  REQUIRE(::symlink("no/such/folder", (folder / "lost").c_str()) == 0);
+  CHECK(error_of(folder / "lost", "text").find("lost: cannot write: No such file") != std::string::npos);
+  REQUIRE(::symlink("loop", (folder / "loop").c_str()) == 0);
+  CHECK(error_of(folder / "loop", "text").find("loop: cannot write: ") != std::string::npos);
+  CHECK(std::filesystem::is_symlink(folder / "loop"));
+}
+
 TEST_CASE("a device is written to") {
   write_text_file("/dev/null", "text");
   CHECK(std::filesystem::is_character_file("/dev/null"));

@@ -95,6 +95,32 @@ TEST_CASE("exit code 7: a limit on the size of files leaves finished files only"
 #endif
 }
 
+TEST_CASE("exit code 7: a driver without OpenGL 3.3") {
+#ifdef SIDELIGHT_HAVE_OSMESA
+  const Workplace here;
+  const Outcome outcome = here.run_in_shell("MESA_GL_VERSION_OVERRIDE=2.1 exec \"$0\" \"$@\"",
+                                            Arguments{"view"} + kSmall + Arguments{"--screenshot", "a.png"});
+  check_not_written(outcome);
+  CHECK(outcome.err.find("OpenGL 3.3") != std::string::npos);
+  CHECK(here.made().empty());
+#endif
+}
+
+TEST_CASE("output: fewer threads than were asked for, where a limit allows no more") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return test::skip_test("sanitizers reserve more memory than the limit lets them");
+#else
+  const Workplace here;
+  REQUIRE(here.run(render({"-o", "one.exr", "-j", "1"})).code == 0);
+  // A gigabyte and a half of addresses, of which each thread's stack takes eight megabytes.
+  const Outcome outcome = here.run_in_shell("ulimit -s 8192; ulimit -v 1500000; exec \"$0\" \"$@\"",
+                                            render({"-o", "many.exr", "-j", "1000"}));
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(read_bytes(here / "many.exr") == read_bytes(here / "one.exr"));
+#endif
+}
+
 TEST_CASE("output: nothing on standard output unasked and nothing at all with -q") {
   const Workplace here;
   CHECK(here.run(render({"-o", "a.png"})).out.empty());

@@ -282,13 +282,4 @@ TEST_CASE("exit code 5: light beyond what float holds is reported with its pixel
 #endif
 }
 
-TEST_CASE("exit code 2: no OpenGL to draw with off screen") {
-  const Workplace here;
-  const Outcome outcome = here.command({"env", "MESA_GL_VERSION_OVERRIDE=2.1", SIDELIGHT_BINARY, "compare",
-                                        "good.toml", "-o", "out", "-r", "16x12"});
-  CHECK(outcome.code == 2);
-  CHECK(lines(outcome.err).size() == 1);
-  CHECK(outcome.err.find("OSMesa") != std::string::npos);
-}
-
 TEST_CASE("exit code 6: no display") { check_refused({"view", "good.toml"}, 6, "display"); }

@@ -115,13 +115,14 @@ sys.exit(render.wait() & 255))";
 TEST_CASE("streams: data that standard output does not take is exit code 7") {
   const Workplace here;
   for (const Arguments& command :
-       {Arguments{"info", "good.toml"}, Arguments{"explain", "good.toml", "--pixel", "8,6"},
-        Arguments{"explain", "good.toml", "--pixel", "8,6", "--json", "-"},
-        Arguments{"render", "good.toml", "-o", "a.png", "--stats", "-"}}) {
+       {Arguments{"info", "good.toml"} + kSmall, Arguments{"explain", "good.toml", "--pixel", "8,6"} + kSmall,
+        Arguments{"explain", "good.toml", "--pixel", "8,6", "--json", "-"} + kSmall,
+        Arguments{"render", "good.toml", "-o", "a.png", "--stats", "-"} + kSmall, Arguments{"--help"},
+        Arguments{"render", "--help"}, Arguments{"--version"}}) {
     CAPTURE(command[0]);
     for (const char* where : {"exec \"$0\" \"$@\" > /dev/full", "exec \"$0\" \"$@\" >&-"}) {
       CAPTURE(where);
-      const Outcome outcome = here.run_in_shell(where, command + kSmall);
+      const Outcome outcome = here.run_in_shell(where, command);
       CHECK(outcome.code == 7);
       CHECK(lines(outcome.err).size() == 1);
       CHECK(outcome.err.find("standard output") != std::string::npos);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <memory>
 #include <new>
 #include <regex>
@@ -35,6 +36,13 @@ int complain(int code, const std::string& message) {
   // Not fmt::print, which throws where standard error is full: the code must get out even so.
   std::fputs(("sidelight: " + printable(message, 2000) + "\n").c_str(), stderr);
   return code;
+}
+
+// The code, if standard output took all that was said there.
+int all_written(int code) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return code;
+  return complain(kOutput, "standard output: cannot write");
 }
 
 // One empty line between groups of options, not two, so that a verb's help fits a screen.
@@ -107,10 +115,9 @@ int run(int argc, char** argv) {
   try {
     if (argc > 1) check_verb(app, argv[1]);
     app.parse(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw OutputError("standard output: cannot write");
-    return exit_code;
+    return all_written(exit_code);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0) return all_written(app.exit(error));  // --help, --version
     const std::vector<CLI::App*> verb = app.get_subcommands();
     const bool extra = !verb.empty() && !verb[0]->remaining().empty();
     const std::string what = extra ? unexpected(*verb[0]) : error.what();
@@ -135,7 +142,8 @@ int run(int argc, char** argv) {
   } catch (const Interrupted& error) {
     return complain(kInterrupted, error.what());
   } catch (const std::system_error& error) {
-    if (!std::ferror(stdout) && !std::ferror(stderr)) throw;
+    if (!std::ferror(stdout) && !std::ferror(stderr))  // no thread to be had, say
+      return complain(kInput, fmt::format("the system refuses what this needs: {}", error.what()));
     return complain(kOutput,
                     fmt::format("standard {}: {}", std::ferror(stdout) ? "output" : "error", error.what()));
   }

@@ -34,7 +34,7 @@ struct Fonts {
 
 class Canvas {
  public:
-  // Throws UsageError if the OpenGL context lacks something.
+  // Throws OutputError if the OpenGL context lacks something.
   explicit Canvas(GlLoader loader, double scale = 1);
   ~Canvas();
   Canvas(const Canvas&) = delete;

@@ -13,7 +13,7 @@ namespace {
 template <class Function>
 void fetch(GlLoader loader, Function& function, const char* name) {
   function = reinterpret_cast<Function>(loader(name));
-  if (function == nullptr) throw UsageError(std::string("OpenGL has no ") + name);
+  if (function == nullptr) throw OutputError(std::string("OpenGL has no ") + name);
 }
 
 // The shader lives until the program that holds it is deleted; errors show when that is linked.
@@ -76,7 +76,7 @@ GlObject make_program(const Gl& gl, const char* vertex_source, const char* fragm
   if (linked == 0) {
     std::array<char, 1000> log{};
     gl.GetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw UsageError("the window's shaders do not link: " + printable(log.data(), log.size()));
+    throw OutputError("the window's shaders do not link: " + printable(log.data(), log.size()));
   }
   return program;
 }

@@ -66,7 +66,7 @@ struct Gl {
 #undef SIDELIGHT_GL_MEMBER
 };
 
-// Fills the table from the current context. Throws UsageError naming a function that is missing
+// Fills the table from the current context. Throws OutputError naming a function that is missing
 // (OSMesa's loader never says so).
 Gl load_gl(GlLoader loader);
 
@@ -96,7 +96,7 @@ class GlObject {
 GlObject make_buffer(const Gl& gl);
 GlObject make_vertex_array(const Gl& gl);
 
-// Compiles and links a program. Throws UsageError with the driver's log.
+// Compiles and links a program. Throws OutputError with the driver's log.
 GlObject make_program(const Gl& gl, const char* vertex_source, const char* fragment_source);
 
 // A picture as a texture: its own bytes, unfiltered, wherever it is drawn at its size or larger; smoothed

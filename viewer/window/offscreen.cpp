@@ -118,8 +118,7 @@ OsmesaContext make_context() {
                             3,
                             0};
   OsmesaContext context(OSMesaCreateContextAttribs(attributes, nullptr));
-  if (!context)
-    throw UsageError("OSMesa has no OpenGL 3.3 core context, so there are no pictures off screen");
+  if (!context) throw OutputError("nothing can be drawn off screen: OSMesa has no OpenGL 3.3 core context");
   return context;
 }
 
@@ -133,7 +132,8 @@ Image8 draw_on_this_thread(int width, int height, const std::function<void(Canva
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const OsmesaContext context = make_context();
   if (OSMesaMakeCurrent(context.get(), rgba.data(), GL_UNSIGNED_BYTE, width, height) == 0)
-    throw UsageError("OSMesa cannot draw into " + std::to_string(width) + "x" + std::to_string(height));
+    throw OutputError("nothing can be drawn off screen: OSMesa cannot draw into " + std::to_string(width) +
+                      "x" + std::to_string(height));
   OSMesaPixelStore(OSMESA_Y_UP, 0);  // top row first
   Canvas canvas(OSMesaGetProcAddress);
   draw(canvas);

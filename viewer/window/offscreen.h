@@ -6,8 +6,8 @@
 // OSMesa's buffer. May be called from any thread, but not from within Canvas::draw. Equal arguments give
 // equal bytes.
 //
-// Where the program was built without OSMesa (Mesa 25.1 dropped it), or OSMesa has no OpenGL 3.3, each function throws
-// UsageError saying so.
+// Where the program was built without OSMesa (Mesa 25.1 dropped it), each function throws UsageError saying so; where
+// OSMesa has no OpenGL 3.3, OutputError.
 #pragma once
 
 #include <functional>
