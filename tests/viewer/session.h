@@ -32,6 +32,15 @@ inline SceneOpener opener(int width, int height) {
   };
 }
 
+inline const SceneOpener open_small = opener(48, 36);
+
+// A scene file in a folder of its own.
+struct Open {
+  TemporaryFolder folder;
+  std::string file = folder / "scene.toml";
+  explicit Open(const std::string& text = kGoodScene) { write_bytes(file, text); }
+};
+
 // Writes the file with a time that differs from the one before, however coarse the file system's clock.
 inline void save_later(const std::string& file, const std::string& text) {
   const auto before = std::filesystem::last_write_time(file);

@@ -13,8 +13,6 @@ using namespace sidelight::test;
 
 namespace {
 
-const SceneOpener open_small = opener(48, 36);
-
 const std::string kLesson =
     "[[step]]\n"
     "text = 'Which shadow?'\n"
@@ -23,12 +21,6 @@ const std::string kLesson =
     "set = { 'trace.depth' = 2 }\n"
     "[[step]]\n"
     "text = 'And now?'\n";
-
-struct Open {
-  TemporaryFolder folder;
-  std::string file = folder / "scene.toml";
-  explicit Open(const std::string& text = kGoodScene + kLesson) { write_bytes(file, text); }
-};
 
 }  // namespace
 
@@ -148,7 +140,7 @@ TEST_CASE("session: modes by their keys, and layers in a ring") {
 }
 
 TEST_CASE("session: lessons ask first, then show") {
-  const Open open;
+  const Open open(kGoodScene + kLesson);
   Session session(open_state(open.file, open_small), open_small);
   session.press("PageDown", kPanel);
   CHECK(session.state().step == 0);
@@ -172,79 +164,6 @@ TEST_CASE("session: lessons ask first, then show") {
   CHECK(session.state().revealed);
   session.press("p", kPanel);
   CHECK(session.state().step == -1);
-}
-
-TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and the picture stays") {
-  const Open open;
-  Session session(open_state(open.file, open_small), open_small);
-  CHECK_FALSE(session.watch());
-  const auto before = session.state().scene;
-  save_later(open.file, "[camera]\neye = 3\nlook_at = [0, 0, 0]\nview_height = 1\n");
-  CHECK(session.watch());
-  CHECK(session.state().scene == before);
-  CHECK(session.state().notice.error);
-  CHECK(session.state().notice.text.find("scene.toml:2:7") != std::string::npos);
-  CHECK_FALSE(session.watch());  // told once
-  check_headless(session);
-
-  for (const char* key : {"Left", "f", "a"}) session.press(key, kPanel);
-  Faults faults;
-  faults.tessellate = 8;
-  session.set_faults(faults);
-  const glm::dvec3 eye = session.state().camera.eye;
-  std::string text = "[trace]\ndepth = 3\n" + kGoodScene;
-  text.replace(text.find("radius = 1"), 10, "radius = 2");
-  save_later(open.file, text);
-  CHECK(session.watch());
-  CHECK(session.state().notice.text == "");
-  CHECK(session.state().scene->spheres[0].radius == 2);
-  CHECK(session.state().scene->trace.depth == 3);
-  CHECK(session.state().camera.eye == eye);  // the user's, as what follows
-  CHECK_FALSE(session.state().scene->trace.shadows);
-  CHECK(session.state().n == 2);
-  CHECK(session.state().faults == faults);
-  check_headless(session);
-  session.press("z", kPanel);
-  CHECK(session.state().scene->trace.shadows);
-  CHECK_FALSE(session.state().faults.any());
-
-  std::filesystem::remove(open.file);
-  CHECK_FALSE(session.watch());
-}
-
-TEST_CASE(
-    "session: of a camera that the user moved, the file still sets the angle, and its own moves go first") {
-  const Open open;
-  Session session(open_state(open.file, open_small), open_small);
-  session.press("Left", kPanel);
-  const glm::dvec3 eye = session.state().camera.eye;
-  std::string text = kGoodScene;
-  save_later(open.file, text.replace(text.find("vertical_fov = 40"), 17, "vertical_fov = 20"));
-  CHECK(session.watch());
-  CHECK(session.state().camera.eye == eye);
-  CHECK(session.state().camera.view_height == session.state().scene->camera.view_height);
-  session.press("s", kPanel);  // the angle would not be there twice
-  CHECK_FALSE(session.state().notice.error);
-
-  save_later(open.file, text.replace(text.find("eye = [0, 1, 6]"), 15, "eye = [0, 1, 9]"));
-  CHECK(session.watch());
-  CHECK(session.state().camera.eye == glm::dvec3(0, 1, 9));
-}
-
-TEST_CASE("session: a mesh file under another name is read once the scene says so") {
-  const std::string text = kGoodScene + "[[mesh]]\nfile = 'a.obj'\nmaterial = 'red'\n";
-  const Open open(text);
-  write_bytes(open.folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  Session session(open_state(open.file, open_small), open_small);
-  std::filesystem::rename(open.folder / "a.obj", open.folder / "b.obj");
-  CHECK_FALSE(session.watch());  // an editor may be about to replace it
-  std::string renamed = text;
-  renamed.replace(renamed.find("a.obj"), 5, "b.obj");
-  save_later(open.file, renamed);
-  CHECK(session.watch());
-  CHECK(session.state().notice.text == "");
-  CHECK(session.state().opened.files.back() == open.folder / "b.obj");
-  CHECK_FALSE(session.watch());
 }
 
 TEST_CASE("session: neighbours in the folder, and their ends") {
