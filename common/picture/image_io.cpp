@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <new>
 
 #include "common/error.h"
@@ -22,8 +23,16 @@ extern "C" const char* __asan_default_options() { return "intercept_tls_get_addr
 namespace sidelight {
 namespace {
 
+// Beside the program if that was installed, else where it was built.
+std::string codec_file() {
+  std::error_code unknown;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  const std::filesystem::path installed = program.parent_path() / SIDELIGHT_INSTALLED_CODEC;
+  return std::filesystem::exists(installed, unknown) ? installed.string() : SIDELIGHT_CODEC;
+}
+
 const PictureCodec& load_codec() {
-  void* library = dlopen(SIDELIGHT_CODEC, RTLD_NOW | RTLD_LOCAL);
+  void* library = dlopen(codec_file().c_str(), RTLD_NOW | RTLD_LOCAL);
   void* function = library ? dlsym(library, "sidelight_picture_codec") : nullptr;
   if (!function) throw OutputError(std::string("pictures cannot be read or written: ") + dlerror());
   return *reinterpret_cast<decltype(&sidelight_picture_codec)>(function)();
