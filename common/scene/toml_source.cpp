@@ -25,6 +25,11 @@ SourceLocation location_of(std::string_view text, std::size_t at, const std::str
 // if it is not closed, where toml++ will complain before it reads another key.
 std::size_t after_comment(std::string_view text, std::size_t at) { return text.find('\n', at); }
 
+// A string of several lines may end in one or two quotes of its own, before its last three.
+std::size_t closing_quotes(std::string_view five) {
+  return std::min(five.find_first_not_of(five[0]), five.size());
+}
+
 std::size_t after_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string_view triple = quote == '"' ? "\"\"\"" : "'''";
@@ -34,7 +39,7 @@ std::size_t after_string(std::string_view text, std::size_t at) {
     if (quote == '"' && text[i] == '\\')
       ++i;
     else if (text.substr(i, close.size()) == close)
-      return i + close.size();
+      return i + (multi_line ? closing_quotes(text.substr(i, 5)) : 1);
     else if (!multi_line && text[i] == '\n')
       return i;
   }
