@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "common/scene/number_text.h"
 #include "common/scene/toml_set.h"
 #include "common/scene/toml_source.h"
 
@@ -14,8 +15,10 @@ namespace {
 
 // ---- Differences ----
 
-// Shortest digits that read back as the same double; with a point or exponent nowhere needed.
-std::string toml(double value) { return fmt::format("{}", value); }
+std::string toml(double value) { return number_text(value); }
+std::string toml(double a, double b, double c) {
+  return fmt::format("[{}, {}, {}]", number_text(a), number_text(b), number_text(c));
+}
 std::string toml(bool value) { return value ? "true" : "false"; }
 std::string toml(int value) { return fmt::format("{}", value); }
 std::string toml_key(const std::string& key) {
@@ -33,8 +36,8 @@ std::string toml_key(const std::string& key) {
   }
   return quoted + '"';
 }
-std::string toml(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
-std::string toml(const Attenuation& a) { return fmt::format("[{}, {}, {}]", a.q0, a.q1, a.q2); }
+std::string toml(const glm::dvec3& v) { return toml(v.x, v.y, v.z); }
+std::string toml(const Attenuation& a) { return toml(a.q0, a.q1, a.q2); }
 
 bool same(const Attenuation& a, const Attenuation& b) { return a.q0 == b.q0 && a.q1 == b.q1 && a.q2 == b.q2; }
 template <class T>

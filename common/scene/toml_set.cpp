@@ -7,6 +7,8 @@
 #include <optional>
 #include <sstream>
 
+#include "common/scene/number_text.h"
+
 namespace sidelight::scene_file {
 namespace {
 

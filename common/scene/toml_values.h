@@ -84,8 +84,6 @@ const toml::table& read_table(const Value& value);
 // The elements of an array of tables, as [[name]] makes them.
 std::vector<const toml::table*> read_tables(const Value& value);
 
-// The shortest text that reads back as x; TOML, too.
-std::string number_text(double x);
 // `name` in quotes, fit for a message.
 std::string in_quotes(std::string_view name);
 // "one of a, b, c; did you mean 'b'?" (nearest_name.h).

@@ -113,6 +113,12 @@ TEST_CASE("toml: what a step sets can be given to load_scene_with") {
   CHECK(with(scene.steps[0].set).materials[0].diffuse == dvec3(0.1, 1e-7, 3));
 }
 
+TEST_CASE("toml: a step's large number stays a number") {
+  const Scene scene = parse(
+      kLesson + "[[step]]\ntext = ''\nset = { ambient = [1.2345678901234567e19, 1e15, 987654321098765.0] }");
+  CHECK(with(scene.steps[0].set).ambient == dvec3(1.2345678901234567e19, 1e15, 987654321098765.0));
+}
+
 TEST_CASE("toml: load_scene_with keeps the file's hash and steps") {
   const TempFolder folder;
   const std::string path =
