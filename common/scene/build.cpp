@@ -14,6 +14,7 @@
 
 #include "common/model/exact.h"
 #include "common/scene/closed_mesh.h"
+#include "common/scene/limits.h"
 #include "common/scene/number_text.h"
 #include "common/scene/triangulate.h"
 #include "common/scene/unit_vector.h"
@@ -24,7 +25,6 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr double kLargest = 1e15, kSmallest = 1e-30;   // magnitudes of positions and lengths; below is 0
 constexpr std::uint64_t kMaxPrimitives = 0xFFFFFFFDu;  // ids are written plus one, and kNone is none
 // Squares of corner counts, summed over a mesh: what ear clipping may cost, at worst about a minute.
 constexpr double kMaxClipping = 1e10;
@@ -39,7 +39,7 @@ void warn(Scene& scene, const SourceLocation& where, const std::string& message)
 double in_range(double value, const SourceLocation& where, const std::string& what) {
   if (!(std::abs(value) <= kLargest))
     throw InputError(where, what + " is " + number_text(value) + ", expected at most 1e15 in magnitude");
-  return std::abs(value) < kSmallest ? 0.0 : value;
+  return std::abs(value) < kSmallestLength ? 0.0 : value;
 }
 
 dvec3 in_range(const dvec3& p, const SourceLocation& where, const std::string& what) {

@@ -38,7 +38,6 @@ std::string listed(std::initializer_list<std::size_t> counts) {
 }
 
 std::string listed(Range range) {
-  if (std::isinf(range.highest)) return "at least " + number_text(range.lowest);
   return number_text(range.lowest) + " to " + number_text(range.highest);
 }
 

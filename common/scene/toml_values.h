@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/scene/limits.h"
 #include "common/scene/scene.h"
 #include "common/scene/toml_source.h"
 
@@ -49,14 +50,11 @@ struct Range {
   std::string_view words;
 };
 
-// Beyond this, products of three coordinates leave what the exact predicates can hold (model/exact.h).
-inline constexpr double kLargest = 1e15, kSmallestLength = 1e-30;
 inline constexpr Range kFinite{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                "a finite number"};
 inline constexpr Range kCoordinate{-kLargest, kLargest, "a number from -1e15 to 1e15"};
 inline constexpr Range kLength{kSmallestLength, kLargest, "a length above 0 (from 1e-30 to 1e15)"};
-// Colours and coefficients: up to what float holds with room to multiply.
-inline constexpr Range kNotNegative{0, 1e30, "a number from 0 to 1e30"};
+inline constexpr Range kNotNegative{0, kMostLight, "a number from 0 to 1e30"};
 inline constexpr Range kFraction{0, 1, "a number from 0 to 1"};
 
 bool read_flag(const Value& value);
