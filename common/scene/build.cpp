@@ -25,7 +25,6 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr std::uint64_t kMaxPrimitives = 0xFFFFFFFDu;  // ids are written plus one, and kNone is none
 // Squares of corner counts, summed over a mesh: what ear clipping may cost, at worst about a minute.
 constexpr double kMaxClipping = 1e10;
 

@@ -14,7 +14,7 @@ inline constexpr double kMostLight = 1e30;
 inline constexpr double kMostShininess = 1e6;
 inline constexpr double kLeastIor = 0.25, kMostIor = 4;
 
-inline constexpr std::size_t kMaxCorners = 10'000;                  // of a face: triangulation is O(n²)
-inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 25;  // in a scene
+inline constexpr std::size_t kMaxCorners = 10'000;  // of a face: triangulation is O(n²)
+inline constexpr std::size_t kMaxPrimitives = std::size_t{1} << 25;
 
 }  // namespace sidelight
