@@ -78,7 +78,7 @@ void add_material(Differences& out, const Material& from, const Material& to) {
 
 // Where line and column (both from 1, columns in characters) stand in the text.
 std::size_t offset_of(const std::string& text, toml::source_position at) {
-  std::size_t i = 0;
+  std::size_t i = text.starts_with(scene_file::kByteOrderMark) ? scene_file::kByteOrderMark.size() : 0;
   for (toml::source_index line = 1; line < at.line && i < text.size(); ++i)
     if (text[i] == '\n') ++line;
   const auto goes_on = [&] {
@@ -107,9 +107,8 @@ bool has_place(const std::string& text, const toml::node& table) {
 }
 
 void insert_key(std::string& text, const toml::node& table, bool is_root, const std::string& line) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (is_root) {
-    text.insert(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0, line + "\n");
+    text.insert(offset_of(text, {1, 1}), line + "\n");
     return;
   }
   const std::size_t begin = offset_of(text, table.source().begin);

@@ -134,7 +134,8 @@ TEST_CASE("toml: load_scene_with reports settings that lead nowhere or are no va
   CHECK(error_with({{"trace.depth", "0"}}).find("scene.toml: 'depth' is 0, expected") != std::string::npos);
   CHECK(error_with({{"trace.depht", "1"}}).find("scene.toml: unknown key 'depht'") != std::string::npos);
   CHECK(error_with({{"trace.depth", "1\nx = 2"}}).find("expected one value") != std::string::npos);
-  CHECK(error_with({{"trace.depth", "?"}}).find("(set trace.depth):1:") != std::string::npos);
+  CHECK(error_with({{"trace.depth", "?"}}).find("(set trace.depth):1:1: ") != std::string::npos);
+  CHECK(error_with({{"camera.eye", "[\n0 ?]"}}).find("(set camera.eye):2:3: ") != std::string::npos);
   CHECK(error_with({{"light.1.intensity", "1"}}).find("no element '1', expected one of 1") !=
         std::string::npos);
 }
