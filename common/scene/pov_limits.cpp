@@ -6,8 +6,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <span>
 
 #include "common/scene/pov.h"
+#include "common/scene/pov_mesh.h"
 
 namespace sidelight {
 namespace {
@@ -100,6 +102,24 @@ void add_light_limits(const Scene& scene, std::vector<PovLimit>& out) {
   }
 }
 
+// Of some corners of a triangle but not of all: then its own normal stands for those that are missing, while ours leaves
+// them out of the sum.
+bool lacks_some_normals(const Scene& scene, const Triangle& triangle) {
+  const int count =
+      has_normal(scene, triangle, 0) + has_normal(scene, triangle, 1) + has_normal(scene, triangle, 2);
+  return !triangle.degenerate && count % 3 != 0;
+}
+
+void add_normal_limits(const Scene& scene, std::vector<PovLimit>& out) {
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].kind != ObjectKind::mesh) continue;
+    const auto triangles = std::span(scene.triangles).subspan(scene.objects[i].first, scene.objects[i].count);
+    if (std::ranges::any_of(triangles, [&](const Triangle& t) { return lacks_some_normals(scene, t); }))
+      out.push_back(
+          {name_of(scene, i) + ": where a vertex normal is 0, POV-Ray gets the triangle's own", {}});
+  }
+}
+
 void add_pair_limits(const Scene& scene, const std::vector<Solid>& solids, std::vector<PovLimit>& out) {
   constexpr int kNamed = 20;
   int pairs = 0;
@@ -152,6 +172,7 @@ std::vector<PovLimit> pov_limits(const Scene& scene) {
   std::vector<PovLimit> out;
   add_trace_limits(scene, out);
   add_light_limits(scene, out);
+  add_normal_limits(scene, out);
   add_object_limits(scene, out);
   return out;
 }
