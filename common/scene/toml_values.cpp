@@ -121,7 +121,7 @@ glm::dvec3 read_color(const Value& value) {
 
 Attenuation read_attenuation(const Value& value) {
   const glm::dvec3 q = read_vector(value, kNotNegative);
-  if (q.x + q.y + q.z < kSmallestLength) value.fail("3 coefficients with a sum above 0");
+  if (q.x + q.y + q.z < kSmallestLength) value.fail("3 coefficients with a sum above 0 (from 1e-30)");
   return {q.x, q.y, q.z};
 }
 

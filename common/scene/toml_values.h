@@ -74,7 +74,7 @@ glm::dvec3 read_position(const Value& value);
 glm::dvec3 read_direction(const Value& value);
 // Three numbers, or one for grey; not negative.
 glm::dvec3 read_color(const Value& value);
-// Three numbers, not negative, with a positive sum.
+// Three numbers, not negative, with a sum of at least 1e-30.
 Attenuation read_attenuation(const Value& value);
 // One of `names`.
 std::string read_name(const Value& value, std::span<const std::string_view> names);
