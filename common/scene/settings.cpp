@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "common/scene/number_text.h"
 #include "common/scene/toml_set.h"
@@ -22,10 +21,7 @@ std::string toml(double a, double b, double c) {
 std::string toml(bool value) { return value ? "true" : "false"; }
 std::string toml(int value) { return fmt::format("{}", value); }
 std::string toml_key(const std::string& key) {
-  const auto bare = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
-  };
-  if (!key.empty() && std::all_of(key.begin(), key.end(), bare)) return key;
+  if (scene_file::is_bare(key)) return key;
   std::string quoted = "\"";
   for (const char c : key) {
     const auto code = static_cast<unsigned char>(c);
