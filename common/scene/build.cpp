@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,6 +14,8 @@
 
 #include "common/model/exact.h"
 #include "common/scene/closed_mesh.h"
+#include "common/scene/limits.h"
+#include "common/scene/number_text.h"
 #include "common/scene/triangulate.h"
 #include "common/scene/unit_vector.h"
 
@@ -24,16 +25,8 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr double kLargest = 1e15, kSmallest = 1e-30;   // magnitudes of positions and lengths; below is 0
-constexpr std::uint64_t kMaxPrimitives = 0xFFFFFFFDu;  // ids are written plus one, and kNone is none
 // Squares of corner counts, summed over a mesh: what ear clipping may cost, at worst about a minute.
 constexpr double kMaxClipping = 1e10;
-
-std::string text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
-}
 
 void warn(Scene& scene, const SourceLocation& where, const std::string& message) {
   scene.warnings.push_back(InputError(where, message).what());
@@ -44,8 +37,8 @@ void warn(Scene& scene, const SourceLocation& where, const std::string& message)
 // The value, or 0 where it is as good as that. Throws where it is too large or not a number; `what` names it.
 double in_range(double value, const SourceLocation& where, const std::string& what) {
   if (!(std::abs(value) <= kLargest))
-    throw InputError(where, what + " is " + text(value) + ", expected at most 1e15 in magnitude");
-  return std::abs(value) < kSmallest ? 0.0 : value;
+    throw InputError(where, what + " is " + number_text(value) + ", expected at most 1e15 in magnitude");
+  return std::abs(value) < kSmallestLength ? 0.0 : value;
 }
 
 dvec3 in_range(const dvec3& p, const SourceLocation& where, const std::string& what) {
@@ -69,8 +62,8 @@ void check_size(const Scene& scene, const PolygonMesh& mesh, const SourceLocatio
   }
   check_capacity(scene, triangles, where);
   if (clipping > kMaxClipping)
-    throw InputError(where, "the squares of the faces' corner counts add up to " + text(clipping) +
-                                ", expected at most " + text(kMaxClipping));
+    throw InputError(where, "the squares of the faces' corner counts add up to " + number_text(clipping) +
+                                ", expected at most " + number_text(kMaxClipping));
   assert(scene.positions.size() + mesh.positions.size() < kNone);
   assert(scene.normals.size() + mesh.normals.size() < kNone);
 }
@@ -115,8 +108,8 @@ void find_medium(Scene& scene, Object& object, std::span<const Triangle> triangl
     object.ior = medium->ior;
     if (several)
       warn(scene, where,
-           "the mesh's materials have several indices of refraction; the first face's, " + text(medium->ior) +
-               ", is used throughout");
+           "the mesh's materials have several indices of refraction; the first face's, " +
+               number_text(medium->ior) + ", is used throughout");
   } else {
     warn(scene, where,
          "the mesh refracts but is not closed, so it has no inside: light goes through it straight on "
@@ -219,7 +212,7 @@ void add_sphere(Scene& scene, const Sphere& sphere, const SourceLocation& where)
   added.center = in_range(sphere.center, where, "the centre");
   added.radius = in_range(sphere.radius, where, "the radius");
   if (!(added.radius > 0))
-    throw InputError(where, "the radius is " + text(sphere.radius) + ", expected at least 1e-30");
+    throw InputError(where, "the radius is " + number_text(sphere.radius) + ", expected at least 1e-30");
   const Object object = simple_object(scene, ObjectKind::sphere, scene.spheres.size(), sphere.material);
   scene.spheres.push_back(added);
   push_object(scene, object, where);

@@ -34,8 +34,8 @@ std::vector<std::uint32_t> welded(std::span<const dvec3> positions) {
 bool is_closed(std::span<const Triangle> triangles, std::span<const dvec3> positions,
                std::uint32_t first_position) {
   const std::vector<std::uint32_t> point = welded(positions);
-  std::vector<std::uint64_t> rising,
-      falling;  // edges as (lower, higher) end, by the sense they are walked in
+  // Edges as (lower, higher) end, by the sense they are walked in.
+  std::vector<std::uint64_t> rising, falling;
   rising.reserve(triangles.size() * 3 / 2 + 1);
   falling.reserve(triangles.size() * 3 / 2 + 1);
   for (const Triangle& triangle : triangles) {

@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <unordered_set>
 #include <utility>
 
+#include "common/scene/limits.h"
 #include "common/scene/obj_text.h"
 
 namespace sidelight {
@@ -16,7 +16,6 @@ namespace {
 using glm::dvec3;
 
 constexpr std::size_t kMaxMaterials = 1'000'000;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A material as the file has it.
 struct Entry {
@@ -41,8 +40,8 @@ struct NumberStatement {
 
 constexpr std::array<ColorStatement, 4> kColors{
     {{"Ka", &Entry::ka}, {"Kd", &Entry::kd}, {"Ks", &Entry::ks}, {"Tf", &Entry::tf}}};
-constexpr std::array<NumberStatement, 3> kNumbers{{{"Ns", &Entry::ns, {0, 1e6}, false},
-                                                   {"Ni", &Entry::ni, {0.25, 4}, false},
+constexpr std::array<NumberStatement, 3> kNumbers{{{"Ns", &Entry::ns, {0, kMostShininess}, false},
+                                                   {"Ni", &Entry::ni, {kLeastIor, kMostIor}, false},
                                                    {"illum", &Entry::illum, {0, 10}, true}}};
 
 // What the illumination models mean here; the others (0, 1 and 2: local only) need nothing, 4, 8, 9 and 10
@@ -113,7 +112,7 @@ class MtlReader {
   // Three numbers, or one for grey.
   dvec3 color(const Word& keyword) {
     std::array<double, 3> rgb{};
-    const std::size_t count = reader_.numbers(keyword, rgb, {1, 3}, {0, kInfinity});
+    const std::size_t count = reader_.numbers(keyword, rgb, {1, 3}, {0, kMostLight});
     return count == 1 ? dvec3(rgb[0]) : dvec3(rgb[0], rgb[1], rgb[2]);
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <span>
 
 namespace sidelight {
 namespace {
@@ -30,15 +31,30 @@ Bounds bounds_of_plane(const Plane& plane) {
   return bounds;
 }
 
+// The axis along which bounded solids begin farthest apart: across a row of balls, all of them would be open at once.
+int axis_of_rows(std::span<const Bounds> solids) {
+  glm::dvec3 least(kInfinity), most(-kInfinity);
+  for (const Bounds& solid : solids) {
+    if (!std::isfinite(solid.low.x + solid.low.y + solid.low.z)) continue;
+    least = glm::min(least, solid.low);
+    most = glm::max(most, solid.low);
+  }
+  const glm::dvec3 spread = most - least;
+  if (spread.x >= spread.y && spread.x >= spread.z) return 0;
+  return spread.y >= spread.z ? 1 : 2;
+}
+
 bool any_solids_meet(const Scene& scene) {
   std::vector<Bounds> solids;
   for (const Object& object : scene.objects)
     if (object.solid) solids.push_back(bounds_of(scene, object));
-  // Sweep along x: those that are open when one begins are all it can meet.
-  std::sort(solids.begin(), solids.end(), [](const Bounds& a, const Bounds& b) { return a.low.x < b.low.x; });
+  const int axis = axis_of_rows(solids);
+  std::sort(solids.begin(), solids.end(),
+            [axis](const Bounds& a, const Bounds& b) { return a.low[axis] < b.low[axis]; });
+  // Sweep: those that are open when one begins are all it can meet.
   std::vector<const Bounds*> open;
   for (const Bounds& solid : solids) {
-    std::erase_if(open, [&](const Bounds* other) { return other->high.x < solid.low.x; });
+    std::erase_if(open, [&](const Bounds* other) { return other->high[axis] < solid.low[axis]; });
     if (std::any_of(open.begin(), open.end(), [&](const Bounds* other) { return other->meets(solid); }))
       return true;
     open.push_back(&solid);

@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "common/scene/limits.h"
 #include "common/scene/mtl.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/obj_text.h"
@@ -20,8 +21,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::uint32_t kMaxCorners = 10'000;  // of a face: ear clipping takes their square
-constexpr std::size_t kMaxLibraries = 64;      // of a file
+constexpr std::size_t kMaxLibraries = 64;  // of a file
 
 class ObjReader {
  public:

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "common/scene/number_text.h"
+
 namespace sidelight {
 namespace {
 
@@ -36,12 +38,7 @@ std::string listed(std::initializer_list<std::size_t> counts) {
 }
 
 std::string listed(Range range) {
-  const auto text = [](double value) {
-    char buffer[32];
-    return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-  };
-  if (std::isinf(range.highest)) return "at least " + text(range.lowest);
-  return text(range.lowest) + " to " + text(range.highest);
+  return number_text(range.lowest) + " to " + number_text(range.highest);
 }
 
 }  // namespace

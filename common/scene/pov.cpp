@@ -131,7 +131,7 @@ void Writer::light(const Light& light, const dvec3& tint) {
   }
   // 1/(q0 + q d^power) = 1/(2 q0) · 2/(1 + (d/D)^power) for D^power = q0/q; where q0 = 0, one so small that 1 vanishes.
   const double q0 = a.q0 > 0 ? a.q0 : q * std::pow(1e-5 * extent(scene_), power);
-  const double distance = std::pow(q0 / q, 1.0 / power);
+  const double distance = std::min(std::pow(q0 / q, 1.0 / power), 1e100);  // q may be as good as 0
   line("light_source {{ {} {} fade_distance {:.17g} fade_power {} }}", place(light.position),
        rgb(color / (2 * q0)), out_.scale() * distance, power);
 }

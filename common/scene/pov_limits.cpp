@@ -6,8 +6,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <span>
 
+#include "common/scene/needs.h"
 #include "common/scene/pov.h"
+#include "common/scene/pov_mesh.h"
 
 namespace sidelight {
 namespace {
@@ -15,28 +18,9 @@ namespace {
 using glm::dot;
 using glm::dvec3;
 
-struct Box {
-  dvec3 low{INFINITY}, high{-INFINITY};
-};
-
-Box box_of(const Scene& scene, const Object& object) {
-  if (object.kind == ObjectKind::plane) return {dvec3(-INFINITY), dvec3(INFINITY)};
-  if (object.kind == ObjectKind::sphere) {
-    const Sphere& sphere = scene.spheres[object.first];
-    return {sphere.center - sphere.radius, sphere.center + sphere.radius};
-  }
-  Box box;
-  for (std::uint32_t i = object.first; i < object.first + object.count; ++i)
-    for (const std::uint32_t vertex : scene.triangles[i].vertex) {
-      box.low = glm::min(box.low, scene.positions[vertex]);
-      box.high = glm::max(box.high, scene.positions[vertex]);
-    }
-  return box;
-}
-
 struct Solid {
   std::uint32_t object;
-  Box box;
+  Bounds box;
 };
 
 enum class Relation { apart, inside, unclear };
@@ -45,8 +29,8 @@ enum class Relation { apart, inside, unclear };
 // agree on the medium where the later one is apart from the other, or wholly inside it.
 Relation relation(const Scene& scene, const Solid& later_solid, const Solid& before_solid) {
   const Object &later = scene.objects[later_solid.object], &before = scene.objects[before_solid.object];
-  const Box &box = later_solid.box, &other = before_solid.box;
-  const auto side_of = [&](const Object& plane_object, const Box& of) {
+  const Bounds &box = later_solid.box, &other = before_solid.box;
+  const auto side_of = [&](const Object& plane_object, const Bounds& of) {
     const Plane& plane = scene.planes[plane_object.first];
     // The corners of the box that are farthest along the normal and against it.
     const auto ahead = glm::greaterThan(plane.normal, dvec3(0));
@@ -58,8 +42,7 @@ Relation relation(const Scene& scene, const Solid& later_solid, const Solid& bef
   if (later_plane && before_plane) return Relation::unclear;
   if (before_plane) return side_of(before, box);
   if (later_plane) return side_of(later, other) == Relation::apart ? Relation::apart : Relation::unclear;
-  if (glm::any(glm::lessThan(box.high, other.low)) || glm::any(glm::lessThan(other.high, box.low)))
-    return Relation::apart;
+  if (!box.meets(other)) return Relation::apart;
   if (before.kind != ObjectKind::sphere) return Relation::unclear;
   const Sphere& around = scene.spheres[before.first];
   const double reach =
@@ -100,6 +83,24 @@ void add_light_limits(const Scene& scene, std::vector<PovLimit>& out) {
   }
 }
 
+// Of some corners of a triangle but not of all: then its own normal stands for those that are missing, while ours leaves
+// them out of the sum.
+bool lacks_some_normals(const Scene& scene, const Triangle& triangle) {
+  const int count =
+      has_normal(scene, triangle, 0) + has_normal(scene, triangle, 1) + has_normal(scene, triangle, 2);
+  return !triangle.degenerate && count % 3 != 0;
+}
+
+void add_normal_limits(const Scene& scene, std::vector<PovLimit>& out) {
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].kind != ObjectKind::mesh) continue;
+    const auto triangles = std::span(scene.triangles).subspan(scene.objects[i].first, scene.objects[i].count);
+    if (std::ranges::any_of(triangles, [&](const Triangle& t) { return lacks_some_normals(scene, t); }))
+      out.push_back(
+          {name_of(scene, i) + ": where a vertex normal is 0, POV-Ray gets the triangle's own", {}});
+  }
+}
+
 void add_pair_limits(const Scene& scene, const std::vector<Solid>& solids, std::vector<PovLimit>& out) {
   constexpr int kNamed = 20;
   int pairs = 0;
@@ -136,7 +137,7 @@ void add_object_limits(const Scene& scene, std::vector<PovLimit>& out) {
       mixed = mixed || material != primitive_material(scene, object.first_primitive);
       refracts = refracts || scene.materials[material].refract != dvec3(0);
     }
-    if (object.solid) solids.push_back({i, box_of(scene, object)});
+    if (object.solid) solids.push_back({i, bounds_of(scene, object)});
     if (refracts && !object.solid)
       out.push_back({name_of(scene, i) + ": POV-Ray takes it for the surface of a medium of index 1", {i}});
     if (object.solid && mixed)
@@ -152,6 +153,7 @@ std::vector<PovLimit> pov_limits(const Scene& scene) {
   std::vector<PovLimit> out;
   add_trace_limits(scene, out);
   add_light_limits(scene, out);
+  add_normal_limits(scene, out);
   add_object_limits(scene, out);
   return out;
 }

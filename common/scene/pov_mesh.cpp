@@ -6,6 +6,8 @@
 #include <map>
 #include <vector>
 
+#include "common/scene/unit_vector.h"
+
 namespace sidelight {
 namespace {
 
@@ -14,30 +16,33 @@ using Numbers = std::map<std::uint32_t, std::size_t>;
 
 using Faces = std::vector<const Triangle*>;
 
-bool is_flat(const Triangle* face) { return face->normal[0] == kNone; }
+bool lacks_normals(const Scene& scene, const Triangle& face) {
+  return !has_normal(scene, face, 0) || !has_normal(scene, face, 1) || !has_normal(scene, face, 2);
+}
 
-// Where some faces are smooth, a flat one has three times its own normal, after all others.
+// Where some faces are smooth, corners without a normal have their face's own, which stands after all others.
 void normal_vectors(const PovText& out, const Scene& scene, const Faces& faces, const Numbers& normals) {
-  const auto flat = std::count_if(faces.begin(), faces.end(), is_flat);
-  out.line("normal_vectors {{ {}", normals.size() + static_cast<std::size_t>(flat));
+  const auto lacking =
+      std::ranges::count_if(faces, [&](const Triangle* face) { return lacks_normals(scene, *face); });
+  out.line("normal_vectors {{ {}", normals.size() + static_cast<std::size_t>(lacking));
   for (const auto& [normal, number] : normals) out.line(",{}", pov_vector(scene.normals[normal]));
   for (const Triangle* face : faces) {
-    if (!is_flat(face)) continue;
+    if (!lacks_normals(scene, *face)) continue;
     const glm::dvec3 corner = scene.positions[face->vertex[0]];
-    out.line(",{}", pov_vector(glm::normalize(glm::cross(scene.positions[face->vertex[1]] - corner,
-                                                         scene.positions[face->vertex[2]] - corner))));
+    out.line(",{}", pov_vector(unit_or_zero(glm::cross(scene.positions[face->vertex[1]] - corner,
+                                                       scene.positions[face->vertex[2]] - corner))));
   }
   out.line("}}");
 }
 
-void normal_indices(const PovText& out, const Faces& faces, const Numbers& normals) {
+void normal_indices(const PovText& out, const Scene& scene, const Faces& faces, const Numbers& normals) {
   out.line("normal_indices {{ {}", faces.size());
-  for (std::size_t next_flat = normals.size(); const Triangle* face : faces) {
-    if (is_flat(face))
-      out.line(",<{0},{0},{0}>", next_flat++);
-    else
-      out.line(",<{},{},{}>", normals.at(face->normal[0]), normals.at(face->normal[2]),
-               normals.at(face->normal[1]));
+  for (std::size_t next_own = normals.size(); const Triangle* face : faces) {
+    const std::size_t own = lacks_normals(scene, *face) ? next_own++ : 0;
+    const auto number = [&](std::size_t k) {
+      return has_normal(scene, *face, k) ? normals.at(face->normal[k]) : own;
+    };
+    out.line(",<{},{},{}>", number(0), number(2), number(1));
   }
   out.line("}}");
 }
@@ -52,8 +57,8 @@ void write_pov_mesh(const PovText& out, const Scene& scene, const Object& object
     if (triangle.degenerate || triangle.material != material) continue;
     faces.push_back(&triangle);
     for (const std::uint32_t vertex : triangle.vertex) vertices.emplace(vertex, 0);
-    for (const std::uint32_t normal : triangle.normal)
-      if (normal != kNone) normals.emplace(normal, 0);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (has_normal(scene, triangle, k)) normals.emplace(triangle.normal[k], 0);
   }
   for (std::size_t next = 0; auto& [vertex, number] : vertices) number = next++;
   for (std::size_t next = 0; auto& [normal, number] : normals) number = next++;
@@ -67,7 +72,7 @@ void write_pov_mesh(const PovText& out, const Scene& scene, const Object& object
   for (const Triangle* face : faces)
     out.line(",<{},{},{}>", vertices[face->vertex[0]], vertices[face->vertex[2]], vertices[face->vertex[1]]);
   out.line("}}");
-  if (!normals.empty()) normal_indices(out, faces, normals);
+  if (!normals.empty()) normal_indices(out, scene, faces, normals);
   // Whether the eye is inside is all that POV-Ray asks of it.
   if (object.closed) out.line("inside_vector <0.36,0.48,0.8>");
   out.line("}}");

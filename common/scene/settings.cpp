@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "common/scene/number_text.h"
 #include "common/scene/toml_set.h"
 #include "common/scene/toml_source.h"
 
@@ -14,15 +14,14 @@ namespace {
 
 // ---- Differences ----
 
-// Shortest digits that read back as the same double; with a point or exponent nowhere needed.
-std::string toml(double value) { return fmt::format("{}", value); }
+std::string toml(double value) { return number_text(value); }
+std::string toml(double a, double b, double c) {
+  return fmt::format("[{}, {}, {}]", number_text(a), number_text(b), number_text(c));
+}
 std::string toml(bool value) { return value ? "true" : "false"; }
 std::string toml(int value) { return fmt::format("{}", value); }
 std::string toml_key(const std::string& key) {
-  const auto bare = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
-  };
-  if (!key.empty() && std::all_of(key.begin(), key.end(), bare)) return key;
+  if (scene_file::is_bare(key)) return key;
   std::string quoted = "\"";
   for (const char c : key) {
     const auto code = static_cast<unsigned char>(c);
@@ -33,8 +32,8 @@ std::string toml_key(const std::string& key) {
   }
   return quoted + '"';
 }
-std::string toml(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
-std::string toml(const Attenuation& a) { return fmt::format("[{}, {}, {}]", a.q0, a.q1, a.q2); }
+std::string toml(const glm::dvec3& v) { return toml(v.x, v.y, v.z); }
+std::string toml(const Attenuation& a) { return toml(a.q0, a.q1, a.q2); }
 
 bool same(const Attenuation& a, const Attenuation& b) { return a.q0 == b.q0 && a.q1 == b.q1 && a.q2 == b.q2; }
 template <class T>
@@ -75,7 +74,7 @@ void add_material(Differences& out, const Material& from, const Material& to) {
 
 // Where line and column (both from 1, columns in characters) stand in the text.
 std::size_t offset_of(const std::string& text, toml::source_position at) {
-  std::size_t i = 0;
+  std::size_t i = text.starts_with(scene_file::kByteOrderMark) ? scene_file::kByteOrderMark.size() : 0;
   for (toml::source_index line = 1; line < at.line && i < text.size(); ++i)
     if (text[i] == '\n') ++line;
   const auto goes_on = [&] {
@@ -104,9 +103,8 @@ bool has_place(const std::string& text, const toml::node& table) {
 }
 
 void insert_key(std::string& text, const toml::node& table, bool is_root, const std::string& line) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (is_root) {
-    text.insert(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0, line + "\n");
+    text.insert(offset_of(text, {1, 1}), line + "\n");
     return;
   }
   const std::size_t begin = offset_of(text, table.source().begin);

@@ -9,7 +9,7 @@ namespace sidelight {
 
 // The scene with a mesh of `segments` (shapes.h: make_sphere_mesh) in place of each sphere. Objects and materials keep
 // their numbers; primitives are numbered anew. Throws InputError, at the sphere, where that is more primitives than a scene
-// may have.
+// may have (limits.h).
 Scene tessellated(const Scene& scene, int segments);
 
 }  // namespace sidelight

@@ -152,7 +152,9 @@ std::vector<Step> read_steps(const Document& document, toml::table& root, Effort
 // { value = ... } from a setting's text. Mistakes in the text are reported in it, not in the scene file; the result
 // is a copy, whose nodes have no place, so that mistakes found later name the file as a whole.
 toml::table parse_setting(const std::string& text, const std::string& path, const std::string& key) {
-  const toml::table parsed = parse_toml("value = " + text, path + " (set " + key + ")");
+  const std::string before = "value = ";
+  const toml::table parsed =
+      parse_toml(before + text, path + " (set " + key + ")", static_cast<int>(before.size()));
   if (parsed.size() != 1 || !parsed.contains("value"))
     throw InputError({path, 0, 0},
                      "cannot set " + in_quotes(key) + " to " + in_quotes(text) + ", expected one value");

@@ -159,22 +159,18 @@ PolygonMesh read_obj_mesh(ObjectSink& sink, const Value& value, bool own_materia
 // A polygon of n corners makes n - 2 triangles.
 std::size_t triangle_count(const PolygonMesh& mesh) { return mesh.corners.size() - 2 * mesh.faces.size(); }
 
-void check_triangle_count(std::size_t count, std::size_t limit, const char* what,
-                          const SourceLocation& where) {
-  if (count > limit)
-    throw InputError(where, "with this mesh the scene has " + std::to_string(count) + " triangles" + what +
-                                ", expected at most " + std::to_string(limit));
-}
-
 PolygonMesh read_shape(ObjectSink& sink, const toml::table& table, const Shape& shape) {
   Keys keys = shape.keys;
   keys.required.insert(keys.required.end(), {"shape", "material"});
   keys.optional.push_back("transform");
   PolygonMesh mesh = shape.read({sink.document, table, "[[mesh]] of shape " + in_quotes(shape.name), keys});
   sink.effort.generated += triangle_count(mesh);
-  check_triangle_count(sink.effort.generated, kMaxGenerated,
-                       " of generated shapes (again for each step that changes one)",
-                       sink.document.where(table));
+  if (sink.effort.generated > kMaxGenerated)
+    throw InputError(
+        sink.document.where(table),
+        "with this mesh the scene has " + std::to_string(sink.effort.generated) +
+            " triangles of generated shapes (again for each step that changes one), expected at most " +
+            std::to_string(kMaxGenerated));
   return mesh;
 }
 
@@ -225,7 +221,6 @@ void read_plane(ObjectSink& sink, const toml::table& table) {
 void read_mesh(ObjectSink& sink, const toml::table& table) {
   PolygonMesh mesh = read_polygons(sink, table);
   const SourceLocation where = sink.document.where(table);
-  check_triangle_count(sink.scene.triangles.size() + triangle_count(mesh), kMaxTriangles, "", where);
   if (const toml::node* material = table.get("material")) {
     const std::uint32_t index = read_material(sink, {sink.document, *material, "material"});
     for (PolygonMesh::Face& face : mesh.faces) face.material = index;

@@ -14,12 +14,10 @@
 namespace sidelight::scene_file {
 
 // Limits on what a few bytes of scene file may ask for.
-inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 25;  // in a scene
-inline constexpr std::size_t kMaxGenerated = std::size_t{1} << 22;  // of those, from shapes; see Effort
-inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;  // of mesh and material files; see Effort
-inline constexpr std::size_t kMaxCorners = 10'000;  // of a written face: triangulation is O(n²)
-inline constexpr int kMaxSegments = 4096;           // of a shape, around
-inline constexpr int kMaxQuads = 1 << 18;           // of a torus
+inline constexpr std::size_t kMaxGenerated = std::size_t{1} << 22;        // triangles of shapes; see Effort
+inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;  // of mesh files; see Effort
+inline constexpr int kMaxSegments = 4096;                                 // of a shape, around
+inline constexpr int kMaxQuads = 1 << 18;                                 // of a torus
 
 // Materials of the scene file by name; values index Scene::materials.
 using MaterialNames = std::map<std::string, std::uint32_t, std::less<>>;

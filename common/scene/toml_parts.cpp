@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kMaxDepth = 1000, kMaxPictureEdge = 65535;
 constexpr Range kFieldOfView{1e-28, 179.999999999999, "an angle in degrees above 0 and below 180"};
-constexpr Range kShininess{0, 1e6, "a number from 0 to 1e6"};
-constexpr Range kIor{0.25, 4, "a number from 0.25 to 4"};
+constexpr Range kShininess{0, kMostShininess, "a number from 0 to 1e6"};
+constexpr Range kIor{kLeastIor, kMostIor, "a number from 0.25 to 4"};
 
 Material read_material(const Value& value) {
   const TableReader table(value.document, read_table(value),

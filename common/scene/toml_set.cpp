@@ -7,14 +7,10 @@
 #include <optional>
 #include <sstream>
 
+#include "common/scene/number_text.h"
+
 namespace sidelight::scene_file {
 namespace {
-
-bool is_bare(std::string_view key) {
-  return !key.empty() && std::ranges::all_of(key, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-  });
-}
 
 void collect(toml::table& table, const std::string& prefix, std::vector<Setting>& settings) {
   for (auto&& [key, node] : table) {
@@ -83,6 +79,12 @@ std::vector<Setting> settings_in(toml::table& set, const Document& document) {
   std::ranges::stable_sort(settings, {},
                            [&](const Setting& setting) { return file_order(document.where(setting.where)); });
   return settings;
+}
+
+bool is_bare(std::string_view key) {
+  return !key.empty() && std::ranges::all_of(key, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
 }
 
 std::string path_key(std::string_view key) {

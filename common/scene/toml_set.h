@@ -22,6 +22,9 @@ struct Setting {
 // The entries of `set`, in the order of the file. { trace = { depth = 1 } } is trace.depth, like { "trace.depth" = 1 }.
 std::vector<Setting> settings_in(toml::table& set, const Document& document);
 
+// Whether TOML, and a path, can do without quotes around the key.
+bool is_bare(std::string_view key);
+
 // A key as a path writes it, in quotes where it needs them. (A path has no key with both sorts of quotes.)
 std::string path_key(std::string_view key);
 

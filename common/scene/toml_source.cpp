@@ -13,17 +13,22 @@ namespace sidelight::scene_file {
 namespace {
 
 // Line and column (in code points, as toml++ counts) of text[at].
-SourceLocation location_of(std::string_view text, std::size_t at, const std::string& path) {
+toml::source_position position_of(std::string_view text, std::size_t at) {
   const std::string_view before = text.substr(0, at);
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const std::string_view row = before.substr(before.rfind('\n') + 1);  // npos + 1 is 0
   const auto column = std::count_if(row.begin(), row.end(), [](char c) { return (c & 0xC0) != 0x80; }) + 1;
-  return {path, static_cast<int>(line), static_cast<int>(column)};
+  return {static_cast<toml::source_index>(line), static_cast<toml::source_index>(column)};
 }
 
 // Where the comment or string (of TOML's four kinds) that begins at text[at] ends: at the character after it, or,
 // if it is not closed, where toml++ will complain before it reads another key.
 std::size_t after_comment(std::string_view text, std::size_t at) { return text.find('\n', at); }
+
+// A string of several lines may end in one or two quotes of its own, before its last three.
+std::size_t closing_quotes(std::string_view five) {
+  return std::min(five.find_first_not_of(five[0]), five.size());
+}
 
 std::size_t after_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
@@ -34,7 +39,7 @@ std::size_t after_string(std::string_view text, std::size_t at) {
     if (quote == '"' && text[i] == '\\')
       ++i;
     else if (text.substr(i, close.size()) == close)
-      return i + close.size();
+      return i + (multi_line ? closing_quotes(text.substr(i, 5)) : 1);
     else if (!multi_line && text[i] == '\n')
       return i;
   }
@@ -43,8 +48,8 @@ std::size_t after_string(std::string_view text, std::size_t at) {
 
 // toml++ bounds the nesting of values but not the parts of a dotted key, and destroys tables recursively: one key of
 // a million parts would overflow the stack, in the error path too. So keys are measured before it sees them: dots
-// between separators, outside of strings and comments (a number has one at most).
-void check_key_lengths(std::string_view text, const std::string& path) {
+// between separators, outside of strings and comments (a number has one at most). The first dot too many, or npos.
+std::size_t overlong_key(std::string_view text) {
   int dots = 0;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
@@ -57,11 +62,10 @@ void check_key_lengths(std::string_view text, const std::string& path) {
       continue;
     }
     if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) dots = 0;
-    if (c == '.' && ++dots >= kMaxKeyParts)
-      throw InputError(location_of(text, i, path), "a dotted key goes on here, expected one of at most " +
-                                                       std::to_string(kMaxKeyParts) + " parts");
+    if (c == '.' && ++dots >= kMaxKeyParts) return i;
     ++i;
   }
+  return std::string_view::npos;
 }
 
 InputError unreadable(const std::string& path, const std::string& what) {
@@ -109,16 +113,22 @@ void add_file(ContentHash& hash, const std::string& path) {
   if (left > 0) throw unreadable(path, "cannot be read to its end");
 }
 
-toml::table parse_toml(std::string_view text, const std::string& path) {
-  check_key_lengths(text, path);
+toml::table parse_toml(std::string_view text, const std::string& path, int before) {
+  const auto where = [&](toml::source_position at) {
+    const int column = static_cast<int>(at.column);
+    return SourceLocation{path, static_cast<int>(at.line), at.line == 1 ? column - before : column};
+  };
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  if (const std::size_t dot = overlong_key(text); dot != std::string_view::npos)
+    throw InputError(where(position_of(text, dot)), "a dotted key goes on here, expected one of at most " +
+                                                        std::to_string(kMaxKeyParts) + " parts");
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    const toml::source_position at = error.source().begin;
     const std::string description(error.description());
     // toml++ does not say why it cannot read 1e400.
     const bool number = description.find("parsing floating-point") != std::string::npos;
-    throw InputError({path, static_cast<int>(at.line), static_cast<int>(at.column)},
+    throw InputError(where(error.source().begin),
                      "not valid TOML: " + description + (number ? ", expected a finite number" : ""));
   }
 }

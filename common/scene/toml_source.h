@@ -39,7 +39,11 @@ std::string read_scene_text(const std::string& path);
 // cannot be read.
 void add_file(ContentHash& hash, const std::string& path);
 
-// Valid UTF-8 and TOML 1.0, or an InputError at the line and column where it ceases to be. `path` is for messages.
-toml::table parse_toml(std::string_view text, const std::string& path);
+// May begin a file, and is no column of its first line.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+// Valid UTF-8 and TOML 1.0, or an InputError at the line and column where it ceases to be. `path` is for messages;
+// of the first line's characters, `before` are not the user's and do not count.
+toml::table parse_toml(std::string_view text, const std::string& path, int before = 0);
 
 }  // namespace sidelight::scene_file

@@ -2,12 +2,11 @@
 #include "common/scene/toml_values.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 
 #include "common/scene/nearest_name.h"
+#include "common/scene/number_text.h"
 
 namespace sidelight::scene_file {
 namespace {
@@ -39,12 +38,6 @@ std::string joined(std::span<const std::string_view> names) {
 }
 
 }  // namespace
-
-std::string number_text(double x) {
-  std::array<char, 32> digits;
-  const std::to_chars_result end = std::to_chars(digits.data(), digits.data() + digits.size(), x);
-  return {digits.data(), end.ptr};
-}
 
 std::string in_quotes(std::string_view name) {
   return "'" + printable(std::string(name), kNameInMessage) + "'";
@@ -128,7 +121,7 @@ glm::dvec3 read_color(const Value& value) {
 
 Attenuation read_attenuation(const Value& value) {
   const glm::dvec3 q = read_vector(value, kNotNegative);
-  if (q.x + q.y + q.z < kSmallestLength) value.fail("3 coefficients with a sum above 0");
+  if (q.x + q.y + q.z < kSmallestLength) value.fail("3 coefficients with a sum above 0 (from 1e-30)");
   return {q.x, q.y, q.z};
 }
 

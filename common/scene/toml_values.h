@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/scene/limits.h"
 #include "common/scene/scene.h"
 #include "common/scene/toml_source.h"
 
@@ -49,14 +50,11 @@ struct Range {
   std::string_view words;
 };
 
-// Beyond this, products of three coordinates leave what the exact predicates can hold (model/exact.h).
-inline constexpr double kLargest = 1e15, kSmallestLength = 1e-30;
 inline constexpr Range kFinite{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                "a finite number"};
 inline constexpr Range kCoordinate{-kLargest, kLargest, "a number from -1e15 to 1e15"};
 inline constexpr Range kLength{kSmallestLength, kLargest, "a length above 0 (from 1e-30 to 1e15)"};
-// Colours and coefficients: up to what float holds with room to multiply.
-inline constexpr Range kNotNegative{0, 1e30, "a number from 0 to 1e30"};
+inline constexpr Range kNotNegative{0, kMostLight, "a number from 0 to 1e30"};
 inline constexpr Range kFraction{0, 1, "a number from 0 to 1"};
 
 bool read_flag(const Value& value);
@@ -76,7 +74,7 @@ glm::dvec3 read_position(const Value& value);
 glm::dvec3 read_direction(const Value& value);
 // Three numbers, or one for grey; not negative.
 glm::dvec3 read_color(const Value& value);
-// Three numbers, not negative, with a positive sum.
+// Three numbers, not negative, with a sum of at least 1e-30.
 Attenuation read_attenuation(const Value& value);
 // One of `names`.
 std::string read_name(const Value& value, std::span<const std::string_view> names);
@@ -84,8 +82,6 @@ const toml::table& read_table(const Value& value);
 // The elements of an array of tables, as [[name]] makes them.
 std::vector<const toml::table*> read_tables(const Value& value);
 
-// The shortest text that reads back as x; TOML, too.
-std::string number_text(double x);
 // `name` in quotes, fit for a message.
 std::string in_quotes(std::string_view name);
 // "one of a, b, c; did you mean 'b'?" (nearest_name.h).

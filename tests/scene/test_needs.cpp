@@ -11,13 +11,13 @@ using namespace sidelight::test;
 
 namespace {
 
-// A glass ball of radius 1 at (x, 0, 0).
-void add_glass(Scene& scene, double x) {
+// A glass ball of radius 1.
+void add_glass(Scene& scene, const glm::dvec3& center) {
   Material glass;
   glass.refract = glm::dvec3(0.9);
   glass.ior = 1.5;
   Sphere ball;
-  ball.center = {x, 0, 0};
+  ball.center = center;
   ball.material = add_material(scene, glass);
   add_sphere(scene, ball, {});
 }
@@ -67,22 +67,35 @@ TEST_CASE("needs: solids overlap where their bounds meet, touching included") {
   for (const auto& [second, meet] :
        std::vector<std::pair<double, bool>>{{1.5, true}, {2, true}, {2.001, false}}) {
     Scene scene = empty_scene();
-    add_glass(scene, 0);
-    add_glass(scene, second);
+    add_glass(scene, {0, 0, 0});
+    add_glass(scene, {second, 0, 0});
     CHECK_MESSAGE(needs_of(scene)[Need::overlapping_solids] == meet, second);
     // A third between the two, in the file's order or not
     Scene three = empty_scene();
-    add_glass(three, second);
-    add_glass(three, -10);
-    add_glass(three, 0);
+    add_glass(three, {second, 0, 0});
+    add_glass(three, {-10, 0, 0});
+    add_glass(three, {0, 0, 0});
     CHECK_MESSAGE(needs_of(three)[Need::overlapping_solids] == meet, second);
+  }
+}
+
+TEST_CASE("needs: a long row of balls along any axis, which do not meet but for the last") {
+  for (int axis = 0; axis < 3; ++axis) {
+    CAPTURE(axis);
+    Scene scene = empty_scene();
+    glm::dvec3 center(0);
+    for (int i = 0; i < 20'000; ++i, center[axis] += 3) add_glass(scene, center);
+    CHECK_FALSE(needs_of(scene)[Need::overlapping_solids]);
+    center[axis] -= 4;
+    add_glass(scene, center);
+    CHECK(needs_of(scene)[Need::overlapping_solids]);
   }
 }
 
 TEST_CASE("needs: water is a half-space, bounded above where its surface is level") {
   for (const auto& [height, meet] : std::vector<std::pair<double, bool>>{{-1, true}, {-1.001, false}}) {
     Scene scene = empty_scene();
-    add_glass(scene, 0);
+    add_glass(scene, {0, 0, 0});
     Plane water;
     water.point = {5, height, 7};
     water.material = scene.spheres[0].material;

@@ -101,6 +101,24 @@ TEST_CASE("a mesh comes in many pieces, none of them long") {
   CHECK(code(test::scene_of_triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0})).find("object") == std::string::npos);
 }
 
+TEST_CASE("vertex normals of 0 are none") {
+  Scene scene = test::scene_of_triangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0});
+  scene.normals = {glm::dvec3(0), glm::dvec3(1, 0, 0)};
+  scene.triangles[0].normal = {0, 0, 0};
+  CHECK(code(scene).find("normal_vectors") == std::string::npos);
+  CHECK(limits(scene).empty());
+  scene.triangles[0].normal = {0, 0, 1};
+  CHECK(code(scene).find("normal_vectors { 2\n,<1,0,0>\n,<0,0,1>\n}") != std::string::npos);
+  CHECK(code(scene).find("normal_indices { 1\n,<1,0,1>\n}") != std::string::npos);
+  CHECK(names(limits(scene), "object 1 "));
+}
+
+TEST_CASE("a light that hardly falls has a finite distance") {
+  const Scene scene = with("[[light]]\nposition = [0, 9, 0]\nintensity = 1\nattenuation = [1, 1e-320, 0]\n");
+  CHECK(code(scene).find("fade_distance inf") == std::string::npos);
+  CHECK(code(scene).find("fade_distance ") != std::string::npos);
+}
+
 TEST_CASE("what POV-Ray cannot express is named, and nothing else") {
   CHECK(limits(with(kGlass + ball("glass", "[0, 0, 0]", 1))).empty());
   CHECK(names(limits(with("[trace]\nsecondary_attenuation = [1, 0.1, 0]\n")), "trace.secondary_attenuation"));

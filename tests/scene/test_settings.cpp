@@ -91,6 +91,13 @@ TEST_CASE("settings: comments stay, new keys go where their table is, also inlin
   CHECK(out.find("[trace]\n") != std::string::npos);
 }
 
+TEST_CASE("settings: a byte order mark is no column of the first line") {
+  const std::string rest = "\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\nview_height = 1\n";
+  const std::string mark = "\xEF\xBB\xBF";
+  CHECK(with_settings(mark + "background = 0.25" + rest, {{"background", "[1, 0, 1]"}}, "s.toml") ==
+        mark + "background = [1, 0, 1]" + rest);
+}
+
 TEST_CASE("settings: a material's name may have dots, blanks and quotes of either sort") {
   const std::string camera = "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\nview_height = 1\n";
   for (const char* key : {"plain", "'a.b'", "'a b'", "'a\"b'", "\"a'b\"", "'\".\"'", "'a\\b'", "''"}) {

@@ -41,6 +41,9 @@ TEST_CASE("toml errors: nesting bombs") {
          {"[" + keys + "]", "1:33", "at most 16 parts"},
          {"x = '\"' # \"\n" + keys + " = 1", "2:32", "at most 16 parts"},
          {"x = \"\"\"\n\\\"\"\"\"\n" + keys + " = 1", "3:32", "at most 16 parts"},
+         {"x = { y = \"\"\"a\"\"\"\", " + keys + " = 1 }", "1:52", "at most 16 parts"},
+         {"x = { y = '''a''''', " + keys + " = 1 }", "1:53", "at most 16 parts"},
+         {"\xEF\xBB\xBF" + keys + " = 1", "1:32", "at most 16 parts"},
          {"x = " + arrays, "1:37", "exceeded maximum nested value depth"}});
   const std::string dots(1000, '.');
   CHECK(error_of("lesson = '''" + dots + "'''\n# " + keys + "\ntitle = \"" + dots + "\\\"" + dots + "\"" +

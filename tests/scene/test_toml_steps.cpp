@@ -113,6 +113,12 @@ TEST_CASE("toml: what a step sets can be given to load_scene_with") {
   CHECK(with(scene.steps[0].set).materials[0].diffuse == dvec3(0.1, 1e-7, 3));
 }
 
+TEST_CASE("toml: a step's large number stays a number") {
+  const Scene scene = parse(
+      kLesson + "[[step]]\ntext = ''\nset = { ambient = [1.2345678901234567e19, 1e15, 987654321098765.0] }");
+  CHECK(with(scene.steps[0].set).ambient == dvec3(1.2345678901234567e19, 1e15, 987654321098765.0));
+}
+
 TEST_CASE("toml: load_scene_with keeps the file's hash and steps") {
   const TempFolder folder;
   const std::string path =
@@ -128,7 +134,8 @@ TEST_CASE("toml: load_scene_with reports settings that lead nowhere or are no va
   CHECK(error_with({{"trace.depth", "0"}}).find("scene.toml: 'depth' is 0, expected") != std::string::npos);
   CHECK(error_with({{"trace.depht", "1"}}).find("scene.toml: unknown key 'depht'") != std::string::npos);
   CHECK(error_with({{"trace.depth", "1\nx = 2"}}).find("expected one value") != std::string::npos);
-  CHECK(error_with({{"trace.depth", "?"}}).find("(set trace.depth):1:") != std::string::npos);
+  CHECK(error_with({{"trace.depth", "?"}}).find("(set trace.depth):1:1: ") != std::string::npos);
+  CHECK(error_with({{"camera.eye", "[\n0 ?]"}}).find("(set camera.eye):2:3: ") != std::string::npos);
   CHECK(error_with({{"light.1.intensity", "1"}}).find("no element '1', expected one of 1") !=
         std::string::npos);
 }

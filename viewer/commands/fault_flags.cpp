@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/scene/limits.h"
 
 namespace sidelight {
 namespace {
-
-// As common/scene/build.h has it for positions.
-constexpr double kLargest = 1e15;
 
 void check_planes(const Faults& faults) {
   const double near = faults.near_plane, far = faults.far_plane;
@@ -44,7 +42,8 @@ void add_fault_flags(CLI::App& verb, FaultFlags& flags) {
   const auto add = [&](const char* name, auto& value, const char* type, const std::string& help) {
     return verb.add_option(name, value, help)->type_name(type)->group("Faults on purpose, for teaching");
   };
-  add("--shadow-offset", flags.shadow_offset, "EPS", "shadow rays start on the surface, meet nothing nearer: acne, leaks");
+  add("--shadow-offset", flags.shadow_offset, "EPS",
+      "shadow rays start on the surface, meet nothing nearer: acne, leaks");
   add("--depth-format", flags.depth_format, "NAME",
       fmt::format("depth is stored as {}: z-fighting", fmt::join(formats, ", ")))
       ->check(CLI::IsMember(formats).description(""));
@@ -52,7 +51,8 @@ void add_fault_flags(CLI::App& verb, FaultFlags& flags) {
   add("--far", flags.far_plane, "Z", "its far plane; 1e3 times that distance");
   add("--snap-bits", flags.snap_bits, "N", "vertices are rounded to 1/2^N pixel, N from 0 to 16: cracks")
       ->check(CLI::Range(0, 16).description(""));
-  add("--tessellate", flags.tessellate, "N", "spheres are N segments around, N/2 from pole to pole; N even, 4 to 1024")
+  add("--tessellate", flags.tessellate, "N",
+      "spheres are N segments around, N/2 from pole to pole; N even, 4 to 1024")
       ->check(CLI::Range(4, 1024).description(""));
   add("--precision", flags.precision, "float", "triangles are decided in float, with nothing behind it")
       ->check(CLI::IsMember({"float"}).description(""));
