@@ -106,6 +106,9 @@ void read_metadata(const OIIO::ImageSpec& spec, ImageFile& image) {
 void require_colors(ImageFile& image, const std::string& path) {
   const bool has_color =
       image.channels.contains("R") || image.channels.contains("G") || image.channels.contains("B");
+  // OpenEXR's other way to say colours; its Y alone would pass for a grey picture.
+  if (!has_color && (image.channels.contains("RY") || image.channels.contains("BY")))
+    reject_file(path, "luminance and chroma (Y, RY, BY); expected R, G and B");
   if (!has_color && image.channels.contains("Y")) {
     for (const char* color : {"R", "G", "B"}) image.channels[color] = image.channels["Y"];
     image.channels.erase("Y");

@@ -184,6 +184,21 @@ TEST_CASE("a picture without colours is not one") {
   for (const char* name : {"R", "G", "B"}) CHECK(image.channels.at(name) == std::vector<float>{1});
 }
 
+TEST_CASE("a picture of luminance and chroma is not a grey one") {
+  const TemporaryFolder folder;
+  std::string bytes;
+  for (const std::string name : {"BY", "RY", "Y"})
+    bytes += name + '\0' + little_endian(2) + std::string(4, '\0') + little_endian(1) + little_endian(1);
+  std::string header = exr_header(0, 0, 0, 0);
+  const std::size_t list = header.find("chlist") + 7;  // its length, then channel R
+  header.replace(list, 4 + 18 + 1,
+                 little_endian(static_cast<std::uint32_t>(bytes.size() + 1)) + bytes + '\0');
+  const auto row_at = static_cast<std::uint32_t>(header.size() + 8);
+  const std::string row = little_endian(0) + little_endian(12) + std::string(12, '\0');
+  CHECK(answer(folder, header + little_endian(row_at) + little_endian(0) + row) ==
+        "luminance and chroma (Y, RY, BY); expected R, G and B");
+}
+
 TEST_CASE("a file cut off anywhere is refused") {
   const TemporaryFolder folder;
   write_exr(folder / "a.exr", small_frame(), {{"scene", "x"}});
