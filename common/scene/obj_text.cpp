@@ -37,9 +37,7 @@ std::string listed(std::initializer_list<std::size_t> counts) {
   return text;
 }
 
-std::string listed(Range range) {
-  return number_text(range.lowest) + " to " + number_text(range.highest);
-}
+std::string listed(Range range) { return number_text(range.lowest) + " to " + number_text(range.highest); }
 
 }  // namespace
 
