@@ -47,7 +47,8 @@ struct ImageFile {
   std::map<std::string, std::string> metadata;            // those of sidelight, without the prefix
 };
 // Throws InputError: unreadable, neither PNG nor single-part OpenEXR, truncated, no R G B (a grey file gives
-// R = G = B; one of luminance and chroma is none), or claiming more pixels than 2^28 or than its length can hold (picture_claim.h).
+// R = G = B; one of luminance and chroma is none), or claiming more pixels than 2^28 or than its length can hold
+// (picture_claim.h).
 ImageFile read_image(const std::string& path);
 // R, G and B, pixel by pixel.
 std::vector<glm::vec3> colors(const ImageFile& image);

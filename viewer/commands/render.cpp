@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+
 #include "viewer/bench/front.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/progress.h"

@@ -15,8 +15,8 @@ struct LogAxis {
 };
 
 // An axis for these values with some room beyond the outermost, `room_above` as a part of what they span; those that are
-// not positive or not finite are passed over. It spans at least a factor of 4; without any value 1e-9 to 1. Ticks: 1, 2 and 5 of every decade if it spans no
-// more than two and a half, else powers of ten, at most 8 of them.
+// not positive or not finite are passed over. It spans at least a factor of 4; without any value 1e-9 to 1. Ticks: 1, 2
+// and 5 of every decade if it spans no more than two and a half, else powers of ten, at most 8 of them.
 LogAxis log_axis(std::span<const double> values, double room_above = 0.06);
 
 // "20", "0.5"; "10⁻²", "1" where they are powers of ten from below 0.001; "2·10⁻⁵" where the plain number would be long.
