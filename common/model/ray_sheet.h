@@ -46,12 +46,11 @@ struct DepthSheet {
 
 // Whoever keeps 1/t in float knows the order of two depths of visibility.h where their w differ by more than the factor
 // kSurely. For each is within kDepthError of its 1/t: kFloatDepthError for the float's own rounding, which its keeper must
-// see to, 2^-18 for triangle_depth() (its contract), and 2^-19 for all else; with room for the rounding of the comparison.
+// see to, 2^-18 for triangle_depth() (its contract), and 2^-19 for all else. kSurely is more than
+// ((1 + kDepthError) / (1 - kDepthError))² = 1 + 2^-14.2, with room for the rounding of the comparison.
 inline constexpr float kFloatDepthError = 0x1p-17f;
 inline constexpr double kDepthError = double{kFloatDepthError} + 0x1p-18 + 0x1p-19;
 inline constexpr float kSurely = 1 + 0x1p-14f;
-static_assert(double{kSurely} * (1 - 0x1p-22) * (1 - kDepthError) * (1 - kDepthError) >
-              (1 + kDepthError) * (1 + kDepthError));
 
 // `side` is view_side(), not 0: the rays' origin does not lie in the triangle's plane.
 std::array<EdgeSheet, 3> edge_sheets(const RaySheet& sheet, const TriangleView& view, int side);
