@@ -56,6 +56,8 @@ TEST_CASE("install: the installed program has all it needs with it") {
 TEST_CASE("install: README's example compiles as part of another project") {
   const Workplace here;
   const Example yours = example();
+  REQUIRE(yours.cmake.find("sidelight_raytrace") != std::string::npos);
+  REQUIRE(yours.program.find("raytrace::render(") != std::string::npos);
   std::filesystem::create_directory_symlink(SIDELIGHT_SOURCE_DIR, here / "sidelight");
   write_bytes(here / "yours.cpp", yours.program);
   write_bytes(
