@@ -21,8 +21,8 @@ class InputError : public std::runtime_error {
   InputError(const SourceLocation& where, const std::string& message);
 };
 
-// A file or folder that could not be written; nothing half-written is left behind. what() names the path.
-// Exit code 7.
+// What was asked for cannot be written, or not be drawn for lack of OpenGL; nothing half-written is left behind. what()
+// names the path, where it is one. Exit code 7.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
