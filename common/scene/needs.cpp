@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <span>
 
+#include "common/math/norms.h"
+
 namespace sidelight {
 namespace {
 
@@ -40,8 +42,7 @@ int axis_of_rows(std::span<const Bounds> solids) {
     most = glm::max(most, solid.low);
   }
   const glm::dvec3 spread = most - least;
-  if (spread.x >= spread.y && spread.x >= spread.z) return 0;
-  return spread.y >= spread.z ? 1 : 2;
+  return greatest_axis(spread.x, spread.y, spread.z);
 }
 
 bool any_solids_meet(const Scene& scene) {
