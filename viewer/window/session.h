@@ -74,9 +74,9 @@ class Session {
   void set_slow(int objects, int rows);
   void choose_material(int number) { state_.material = number; }
 
-  // Looks whether the scene's file or one of its meshes' was saved since; loads it again if so; what
-  // keys and mouse changed of it stays. A mistake in it becomes the notice, and what was shown stays. Returns whether
-  // something changed.
+  // Looks whether the scene's file or one of its meshes' was saved since; loads it again if so. What keys and mouse
+  // changed stays, unless the file changed it, too; lights and materials are the file's. A mistake in it becomes the
+  // notice, and what was shown stays. Returns whether something changed.
   bool watch();
 
   // What the user asked to copy since; for the system's clipboard.
