@@ -108,23 +108,6 @@ TEST_CASE("exit code 7: a driver without OpenGL 3.3") {
 #endif
 }
 
-TEST_CASE("output: fewer threads than were asked for, where a limit allows no more") {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return test::skip_test("sanitizers reserve more memory than the limit lets them");
-#else
-  const Workplace here;
-  // Large enough that there is work for more threads than the limit allows: a gigabyte and a half of addresses, of which
-  // each thread's stack takes eight megabytes.
-  const Arguments large{"render", "good.toml", "-r", "640x480"};
-  REQUIRE(here.run(large + Arguments{"-o", "one.exr", "-j", "1"}).code == 0);
-  const Outcome outcome = here.run_in_shell("ulimit -s 8192; ulimit -v 1500000; exec \"$0\" \"$@\"",
-                                            large + Arguments{"-o", "many.exr", "-j", "1000"});
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 0);
-  CHECK(read_bytes(here / "many.exr") == read_bytes(here / "one.exr"));
-#endif
-}
-
 TEST_CASE("output: nothing on standard output unasked and nothing at all with -q") {
   const Workplace here;
   CHECK(here.run(render({"-o", "a.png"})).out.empty());
