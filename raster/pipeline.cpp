@@ -62,7 +62,9 @@ void for_each_tile(const Job& job, Frame& frame, const ShadeTile& shade_tile) {
   const RenderOptions& options = job.options;
   const auto threads = static_cast<std::size_t>(job.threads);
   std::vector<ThreadCounts> counts(threads);
-  std::vector<TileResolve> resolves(threads, {job.prepared, job.camera, options});
+  std::vector<TileResolve> resolves;
+  resolves.reserve(threads);
+  while (resolves.size() < threads) resolves.emplace_back(job.prepared, job.camera, options);
   std::atomic<int> done{0};
   parallel_for(job.grid.count(), job.threads, [&](int tile, int thread) {
     if (options.cancel && *options.cancel) throw Interrupted();

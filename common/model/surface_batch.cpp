@@ -120,6 +120,10 @@ void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const Shadin
                          longest_direction(camera),
                          tables.length_scale};
   batch.any_doubtful = false;
+  if (batch.kind == ObjectKind::mesh) {
+    if (!batch.triangle_runs) batch.triangle_runs = std::make_unique_for_overwrite<TriangleRuns>();
+    batch.triangle_runs->begin(!batch.own_rays, camera.eye, batch.want_t && !batch.has_t, batch.want_leaving);
+  }
   by_isa(isa, surfaces_scalar, surfaces_avx2, surfaces_avx512)(view, batch, out);
   std::uint64_t again = 0;
   for (std::size_t i = 0; batch.any_doubtful && i < size; ++i)

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 
 #include "common/model/shading.h"
+#include "common/model/triangle_runs.h"
 #include "common/scene/camera.h"
 
 namespace sidelight {
@@ -72,6 +74,8 @@ struct SurfaceBatch {
   // Not 0 where the lanes cannot be sure; and whether that is so anywhere.
   alignas(64) Channel<double> doubtful;
   bool any_doubtful = false;
+  // Of triangles, its own from batch to batch, all of one scene.
+  std::unique_ptr<TriangleRuns> triangle_runs;
 };
 
 // Entry i.

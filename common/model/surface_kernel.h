@@ -99,7 +99,7 @@ void surfaces_of_batch(const SurfaceView& view, SurfaceBatch& batch, ShadingBatc
     for_each_vector(sphere_surfaces<F>);
   else
     for_each_vector(plane_surfaces<F>);
-  make_unit<FloatLanes<F>>(out.normal, 1, batch);
+  if (batch.kind != ObjectKind::mesh) make_unit<FloatLanes<F>>(out.normal, 1, batch);
   if (batch.shiny) make_unit<FloatLanes<F>>(out.to_viewer, -1, batch);
 }
 

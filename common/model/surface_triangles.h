@@ -3,30 +3,12 @@
 // across runs; then the samples, in lanes across samples.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "common/model/surface_lanes.h"
 
 namespace sidelight {
-
-// Of each run: visibility.h's TriangleView and DepthPlane, place.cpp's outward normal, surface.cpp's vertex normals.
-struct alignas(64) TriangleRuns {
-  // Whole vectors are read from any entry on; of a length that does not bring all channels to the same lines of a cache.
-  using Channel = std::array<double, static_cast<std::size_t>(SurfaceBatch::kCapacity) + 8>;
-  using Vectors = std::array<Channel, 3>;
-
-  std::array<Vectors, 3> edge;  // turned so that where a ray meets the triangle their sum is positive
-  Vectors v0, e1, e2;           // in units of the shading tables
-  // On the side of Nv: the normal of vertex 0, and the ways from it to those of the others.
-  Vectors normal, to_normal1, to_normal2;
-  Channel least_sum;  // of the edge values, a unit of |d|; infinite where nothing is sure
-  // If t is asked for.
-  Vectors n;
-  Channel a0_n, depth_bound;  // lengths2 (|e1|² + |e2|²); infinite where nothing is sure
-  // If rays leave.
-  Vectors facing;  // Nv
-  Channel clearance;
-};
 
 // place.cpp's clearance_of().
 template <class F>
@@ -42,12 +24,19 @@ template <class F>
 class TriangleSurfaces {
  public:
   TriangleSurfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out)
-      : view_(view), batch_(batch), out_(out) {}
+      : view_(view), batch_(batch), out_(out), runs_(*batch.triangle_runs) {}
 
   void find_all() {
-    for (std::size_t r = 0; r < static_cast<std::size_t>(batch_.runs); r += kCount) see(r);
+    for (std::size_t r = 0; r < static_cast<std::size_t>(batch_.runs); r += kCount) {
+      if (!is_seen(r)) see(r);
+      smooth_ = smooth_ || runs_.smooth[r];
+    }
     for_each_vector([&](std::size_t i, const auto& of_run) { locate(i, of_run); });
-    for_each_vector([&](std::size_t i, const auto& of_run) { interpolate(i, of_run); });
+    for_each_vector([&](std::size_t i, const auto& of_run) {
+      place(i, of_run);
+      smooth_ ? interpolate(i, of_run) : copy_normal(i, of_run);
+    });
+    if (smooth_) make_unit<FloatLanes<F>>(out_.normal, 1, batch_);
   }
 
  private:
@@ -78,6 +67,19 @@ class TriangleSurfaces {
     store(v.x, &to[0][r]);
     store(v.y, &to[1][r]);
     store(v.z, &to[2][r]);
+  }
+
+  // Whether the vector's triangles are those that were looked at last time.
+  bool is_seen(std::size_t r) {
+    if (!runs_.kept) return false;
+    const std::uint32_t* const now = &batch_.index[r];
+    std::uint32_t* const before = &runs_.seen[r];
+    std::uint32_t unlike = 0;
+    for (std::size_t lane = 0; lane < kCount; ++lane) {
+      unlike |= before[lane] ^ now[lane];
+      before[lane] = now[lane];
+    }
+    return unlike == 0;
   }
 
   // Bounds, by |p_j q_k| + |p_k q_j| <= |p| |q|, with room for their own rounding:
@@ -144,7 +146,17 @@ class TriangleSurfaces {
     put(turned, runs_.normal, r);
     put(to1, runs_.to_normal1, r);
     put(to2, runs_.to_normal2, r);
+    runs_.smooth[r] = smooth_ || any<F>(l1_norm(to1) + l1_norm(to2) > F(0));
+    if (!runs_.smooth[r]) put_one_normal(r, turned);
     return sure || flat;
+  }
+
+  // N of triangles in which it does not change: what interpolate() and make_unit() would make of it.
+  void put_one_normal(std::size_t r, const Vec3<F>& normal) {
+    const Vec3<F> without_sign = normal + Vec3<F>{F(0), F(0), F(0)};  // of zeros
+    const auto unit = normalized(rounded(without_sign));
+    put(Vec3<F>{to_double<F>(unit.x), to_double<F>(unit.y), to_double<F>(unit.z)}, runs_.unit_rounded, r);
+    if (batch_.want_leaving) put(normalized(without_sign), runs_.unit, r);
   }
 
   // ---- The samples ----
@@ -176,22 +188,35 @@ class TriangleSurfaces {
     SurfaceLanes<F>(batch_, i).put_doubt(sure);
   }
 
+  // b1 and b2 along the ways from what is at vertex 0.
+  template <class OfRun>
+  Vec3<F> between(std::size_t i, const OfRun& of_run, const TriangleRuns::Vectors& at0,
+                  const TriangleRuns::Vectors& to1, const TriangleRuns::Vectors& to2) const {
+    const F b1 = load<F>(&b1_[i]), b2 = load<F>(&b2_[i]);
+    return (of_run.vector(at0) + b1 * of_run.vector(to1)) + b2 * of_run.vector(to2);
+  }
+
+  template <class OfRun>
+  void place(std::size_t i, const OfRun& of_run) {
+    const Vec3<F> scaled = between(i, of_run, runs_.v0, runs_.e1, runs_.e2);
+    put_position(scaled, out_, i);
+    if (!batch_.want_leaving) return;
+    const Vec3<F> facing_here = of_run.vector(runs_.facing);
+    SurfaceLanes<F>(batch_, i).put_leaving(F(1 / view_.length_scale) * scaled, facing_here,
+                                           of_run(runs_.clearance.data()));
+    sidelight::put(rounded(facing_here), out_.facing, i);
+  }
+
   template <class OfRun>
   void interpolate(std::size_t i, const OfRun& of_run) {
-    const F b1 = load<F>(&b1_[i]), b2 = load<F>(&b2_[i]);
-    const auto between = [&](const auto& v, const auto& to1, const auto& to2) {
-      return (of_run.vector(v) + b1 * of_run.vector(to1)) + b2 * of_run.vector(to2);
-    };
-    const Vec3<F> scaled = between(runs_.v0, runs_.e1, runs_.e2);
-    const Vec3<F> normal = between(runs_.normal, runs_.to_normal1, runs_.to_normal2);
-    put_position(scaled, out_, i);
+    const Vec3<F> normal = between(i, of_run, runs_.normal, runs_.to_normal1, runs_.to_normal2);
     sidelight::put(rounded(normal), out_.normal, i);
-    if (!batch_.want_leaving) return;
-    SurfaceLanes<F> lanes(batch_, i);
-    const Vec3<F> facing_here = of_run.vector(runs_.facing);
-    lanes.put_leaving(F(1 / view_.length_scale) * scaled, facing_here, of_run(runs_.clearance.data()));
-    lanes.put_normal(normalized(normal));
-    sidelight::put(rounded(facing_here), out_.facing, i);
+    if (batch_.want_leaving) SurfaceLanes<F>(batch_, i).put_normal(normalized(normal));
+  }
+  template <class OfRun>
+  void copy_normal(std::size_t i, const OfRun& of_run) {
+    sidelight::put(rounded(of_run.vector(runs_.unit_rounded)), out_.normal, i);
+    if (batch_.want_leaving) SurfaceLanes<F>(batch_, i).put_normal(of_run.vector(runs_.unit));
   }
 
   // |d| 4 sqrt(S T) <= 2^31 |d . n| iff |d|² S T <= 2^58 (d . n)²; 2^57 for the rounding of the bound.
@@ -207,7 +232,8 @@ class TriangleSurfaces {
   const SurfaceView& view_;
   SurfaceBatch& batch_;
   ShadingBatch& out_;
-  TriangleRuns runs_;
+  bool smooth_ = false;  // whether N changes within a triangle of the batch
+  TriangleRuns& runs_;
   alignas(64) SurfaceBatch::Channel<double> b1_, b2_;  // barycentrics
 };
 

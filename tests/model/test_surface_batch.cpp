@@ -17,7 +17,7 @@ using namespace sidelight::test;
 
 namespace {
 
-// Corners and, of every second one, normals; slivers, triangles seen edge-on by an eye at the origin, tiny ones.
+// Corners and, of every second one, normals, the same at all corners of half of these; slivers, triangles seen edge-on by an eye at the origin, tiny ones.
 void add_triangles(Scene& scene, Random& random, std::uint32_t material) {
   PolygonMesh mesh;
   for (std::uint32_t i = 0; i < 60; ++i) {
@@ -31,7 +31,7 @@ void add_triangles(Scene& scene, Random& random, std::uint32_t material) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const glm::dvec3& v : {v0, v1, v2}) {
       mesh.positions.push_back(v);
-      mesh.normals.push_back(random.direction());
+      mesh.normals.push_back(i % 4 == 1 && v != v0 ? mesh.normals.back() : random.direction());
     }
     for (std::uint32_t k = 0; k < 3; ++k) mesh.corners.push_back({first + k, i % 2 == 0 ? kNone : first + k});
     mesh.faces.push_back({first, 3, material, 0, 0});
@@ -103,19 +103,60 @@ void check(Isa isa, const Scene& scene, const Camera& camera, const ShadingTable
   batch.clear();
 }
 
-// The samples of pictures from several eyes, every primitive that the ray meets, in batches of one kind.
+// The samples of a picture, every primitive of the batch's kind that the ray meets.
+void compare_picture(Isa isa, const Mode& mode, const Scene& scene, const Camera& camera, SurfaceBatch& batch,
+                     Random& random, Outcome& outcome) {
+  const ShadingTables tables = make_shading_tables(scene, needs_of(scene));
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  VisibilityCounts counts;
+  const auto see = [&](std::uint32_t primitive, int X, int Y) {
+    const Ray ray{camera.eye, camera.direction(X, Y)};
+    const Hit hit = intersect(scene, primitive, ray, kRayStart, counts);
+    if (!hit.found()) return;
+    const auto i = static_cast<std::size_t>(batch.size);
+    batch.t[i] = hit.t;
+    for (int axis = 0; axis < 3 && mode.own_rays; ++axis) {
+      batch.origin[static_cast<std::size_t>(axis)][i] = ray.origin[axis];
+      batch.direction[static_cast<std::size_t>(axis)][i] = ray.direction[axis];
+    }
+    batch.column[i] = camera.column_factor(X);
+    batch.row[i] = camera.row_factor(Y);
+    if (mode.own_rays || i == 0 || primitive != hits.back().primitive) {
+      batch.add(primitive);
+    } else {
+      batch.run[i] = batch.run[i - 1];
+      ++batch.size;
+    }
+    rays.push_back(ray);
+    hits.push_back(hit);
+    // Sizes of all kinds: whole batches, and less.
+    if (batch.room() > 0 && random.below(80) != 0) return;
+    check(isa, scene, camera, tables, batch, rays, hits, outcome);
+    rays.clear();
+    hits.clear();
+  };
+  const int all = camera.rows(), together = mode.by_rows ? 1 : all;
+  for (int first = 0; first < all; first += together)
+    for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
+      if (primitive_ref(scene, primitive).kind != batch.kind) continue;
+      for (int Y = first; Y < first + together; ++Y)
+        for (int X = 0; X < camera.columns(); ++X) see(primitive, X, Y);
+    }
+  check(isa, scene, camera, tables, batch, rays, hits, outcome);
+}
+
+// Pictures from several eyes.
 Outcome compared(Isa isa, const Mode& mode) {
   Random random(70);
   Outcome outcome;
   for (std::uint64_t round = 0; round < 1 + tier_count("rays_per_case") / 4000; ++round) {
     const Scene scene = scene_of_surfaces(random);
-    const ShadingTables tables = make_shading_tables(scene, needs_of(scene));
     CameraSettings settings;
     settings.eye = round % 2 == 0 ? glm::dvec3(0) : random.in_box(round % 4 == 1 ? 2 : 1e5);
     settings.look_at = settings.eye + random.direction();
     if (round % 4 == 3) settings.look_at = glm::dvec3(0);
     settings.view_height = round % 4 == 3 ? 1e-4 : 2;
-    const Camera camera = make_camera(settings, 12, 9, 2);
     for (std::size_t kind = 0; kind < 3; ++kind) {
       SurfaceBatch batch;
       batch.kind = static_cast<ObjectKind>(kind);
@@ -123,43 +164,7 @@ Outcome compared(Isa isa, const Mode& mode) {
       batch.own_rays = mode.own_rays;
       batch.want_leaving = mode.want_leaving;
       batch.want_t = true;
-      std::vector<Ray> rays;
-      std::vector<Hit> hits;
-      VisibilityCounts counts;
-      const auto see = [&](std::uint32_t primitive, int X, int Y) {
-        const Ray ray{camera.eye, camera.direction(X, Y)};
-        const Hit hit = intersect(scene, primitive, ray, kRayStart, counts);
-        if (!hit.found()) return;
-        const auto i = static_cast<std::size_t>(batch.size);
-        batch.t[i] = hit.t;
-        for (int axis = 0; axis < 3 && mode.own_rays; ++axis) {
-          batch.origin[static_cast<std::size_t>(axis)][i] = ray.origin[axis];
-          batch.direction[static_cast<std::size_t>(axis)][i] = ray.direction[axis];
-        }
-        batch.column[i] = camera.column_factor(X);
-        batch.row[i] = camera.row_factor(Y);
-        if (mode.own_rays || i == 0 || primitive != hits.back().primitive) {
-          batch.add(primitive);
-        } else {
-          batch.run[i] = batch.run[i - 1];
-          ++batch.size;
-        }
-        rays.push_back(ray);
-        hits.push_back(hit);
-        // Sizes of all kinds: whole batches, and less.
-        if (batch.room() > 0 && random.below(80) != 0) return;
-        check(isa, scene, camera, tables, batch, rays, hits, outcome);
-        rays.clear();
-        hits.clear();
-      };
-      const int all = camera.rows(), together = mode.by_rows ? 1 : all;
-      for (int first = 0; first < all; first += together)
-        for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive) {
-          if (primitive_ref(scene, primitive).kind != batch.kind) continue;
-          for (int Y = first; Y < first + together; ++Y)
-            for (int X = 0; X < camera.columns(); ++X) see(primitive, X, Y);
-        }
-      check(isa, scene, camera, tables, batch, rays, hits, outcome);
+      compare_picture(isa, mode, scene, make_camera(settings, 12, 9, 2), batch, random, outcome);
     }
   }
   return outcome;
@@ -174,6 +179,38 @@ void check_isa(Isa isa) {
     CHECK(outcome.entries > 1000);
     CHECK(outcome.unlike == 0);
   }
+}
+
+// One batch, asked in turn from two eyes, with more and less to find, and of rays of their own: what is kept of triangles
+// from batch to batch may answer no other question.
+void check_what_is_kept(Isa isa) {
+  if (!machine_has(isa)) return skip_test(std::string("no ") + std::string(isa_name(isa)));
+  Random random(71);
+  Scene scene;
+  add_material(scene, Material{});
+  PolygonMesh quad;
+  quad.positions = {{-9, -9, -3}, {9, -9, -4}, {9, 9, -5}, {-9, 9, -4}};
+  for (std::uint32_t k = 0; k < 4; ++k) quad.corners.push_back({k, kNone});
+  quad.faces.push_back({0, 4, 0, 0, 0});
+  add_mesh(scene, quad, {}, {});
+  SurfaceBatch batch;
+  batch.want_t = true;
+  Outcome outcome;
+  for (const bool own_rays : {false, true, false})
+    for (const bool want_leaving : {false, true, false})
+      for (const bool has_t : {false, true, false})
+        for (const double side : {0.0, 1.0, 1.0, 0.0}) {
+          batch.has_t = has_t || own_rays;
+          batch.own_rays = own_rays;
+          batch.want_leaving = want_leaving;
+          CameraSettings settings;
+          settings.eye = {side, 0, 1};
+          settings.look_at = {side, 0, 0};
+          compare_picture(isa, {.own_rays = own_rays}, scene, make_camera(settings, 12, 9, 1), batch, random,
+                          outcome);
+        }
+  CHECK(outcome.entries == std::uint64_t{3 * 3 * 3 * 4} * 12 * 9);
+  CHECK(outcome.unlike == 0);
 }
 
 using Numbers = std::vector<std::uint32_t>;
@@ -210,6 +247,15 @@ TEST_CASE("surfaces: neighbours keep their primitives, whatever their runs were 
   }
 }
 
-TEST_CASE("surfaces in lanes: scalar") { check_isa(Isa::scalar); }
-TEST_CASE("surfaces in lanes: AVX2") { check_isa(Isa::avx2); }
-TEST_CASE("surfaces in lanes: AVX-512") { check_isa(Isa::avx512); }
+TEST_CASE("surfaces in lanes: scalar") {
+  check_isa(Isa::scalar);
+  check_what_is_kept(Isa::scalar);
+}
+TEST_CASE("surfaces in lanes: AVX2") {
+  check_isa(Isa::avx2);
+  check_what_is_kept(Isa::avx2);
+}
+TEST_CASE("surfaces in lanes: AVX-512") {
+  check_isa(Isa::avx512);
+  check_what_is_kept(Isa::avx512);
+}
