@@ -6,7 +6,8 @@
 #
 #   planted_faults.sh [TEXT]    only the faults whose line holds TEXT; default: all
 #
-# The copy lives in build/planted_faults and keeps its objects, so a second run builds the changed files only.
+# The copy lives in build/planted_faults and keeps its objects, so a second run builds the changed files only. What is
+# not of the libraries that faults are put into, the program `sidelight` but for them, is taken from build/release.
 set -euo pipefail
 
 root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
@@ -14,6 +15,8 @@ work="$root/build/planted_faults"
 tree="$work/tree"
 objects="$work/objects"
 sound="$work/sound"         # the objects without any fault
+release="$root/build/release"
+libraries=(common raster raytrace)   # that faults are put into
 programs="$work/programs"   # what is judged, while the next fault is built
 scene="$tree/tests/agreement/everything.toml"
 # The test files that hold the checks, beside every header; all others are left out, since they would only cost time.
@@ -40,7 +43,8 @@ copy_source() {
     while IFS= read -r file; do rm -- "$tree/$file"; done
 }
 
-# Little optimisation: these builds run for a second each.
+# Little optimisation, and the pictures and ray counts of the default tier: these builds run for a second each.
+export SIDELIGHT_TIER=default
 configure() {
   cmake -S "$tree" -B "$objects" -G Ninja -D CMAKE_BUILD_TYPE=Planted -D CMAKE_CXX_FLAGS_PLANTED=-O1 \
     -D SIDELIGHT_TESTS=ON -D SIDELIGHT_TESTS_OF_PROGRAM=OFF --log-level=NOTICE
@@ -48,14 +52,29 @@ configure() {
 
 # What check $1 runs, and no more, is built and set aside.
 build() {
-  local program
-  program="$(program_of "$1")"
-  cmake --build "$objects" -j "$(nproc)" --target "$(basename -- "$program")" >"$work/build.log" 2>&1 || return
+  local targets=(sidelight_tests)
+  [[ $1 != compare ]] || targets=("${libraries[@]/#/sidelight_}")
+  cmake --build "$objects" -j "$(nproc)" --target "${targets[@]}" >"$work/build.log" 2>&1 || return
   finish   # the check before, which runs what was set aside
-  cp -- "$objects/$program" "$programs"
+  if [[ $1 == compare ]]; then
+    (cd -- "$release" && bash -c "$link") >"$work/build.log" 2>&1   # of link_command
+  else
+    cp -- "$objects/tests/sidelight_tests" "$programs"
+  fi
 }
 
-program_of() { if [[ $1 == compare ]]; then echo viewer/sidelight; else echo tests/sidelight_tests; fi; }
+# The command that links the release program, but for the libraries that faults are put into, which are the copy's.
+link_command() {
+  local command library
+  cmake -S "$root" --preset release --log-level=NOTICE || return
+  cmake --build "$release" -j "$(nproc)" --target sidelight || return
+  command="$(ninja -C "$release" -t commands -s viewer/sidelight | tail -n 1)"
+  command=${command/"-o viewer/sidelight"/"-o '$programs/sidelight'"}
+  for library in "${libraries[@]}"; do
+    command=${command//" $library/libsidelight_$library.a"/" '$objects/$library/libsidelight_$library.a'"}
+  done
+  link=$command
+}
 
 # Runs a check; its exit code is 0 where all is well, 1 where a fault was caught, anything else where the check itself
 # broke down.
@@ -137,7 +156,7 @@ split() {
 
 mkdir -p -- "$tree" "$programs"
 copy_source
-configure >"$work/build.log"
+{ configure && link_command; } >"$work/build.log" || { tail -n 20 "$work/build.log"; exit 1; }
 grep -v -e '^#' -e '^$' "$root/tests/planted_faults.txt" | grep -F -e "${1:-}" >"$work/faults"
 
 printf '%-44s %-52s %s\n' fault "to be caught by" verdict
