@@ -81,7 +81,7 @@ void check_means(const std::string& file, int n, std::uint64_t seed) {
   const auto tracer = raytrace::prepare(scene);
   const Frame flat = raster::render(*rasterizer, camera, {}), deep = raytrace::render(*tracer, camera, {});
   test::Random random(seed);
-  for (int i = 0; i < 12; ++i) {
+  for (int left = tier() == "sanitized" ? 3 : 12; left > 0; --left) {
     const int x = static_cast<int>(random.below(61)), y = static_cast<int>(random.below(47));
     CAPTURE(x);
     CAPTURE(y);

@@ -154,10 +154,11 @@ TEST_CASE("RAS-9: coplanar surfaces and ties") {
   REQUIRE(two_depths > 100);
   hard.at_most("depths of one square cut in two ways, ulp apart", most_ulps, 4);
 
-  // A thousand overlapping triangles of one plane, and again in another order of the file.
+  // Many overlapping triangles of one plane, and again in another order of the file.
+  const std::uint32_t many = tier() == "sanitized" ? 250 : 1000;
   std::vector<glm::dvec3> positions;
   std::vector<Face> faces;
-  for (std::uint32_t i = 0; i < 1000; ++i) {
+  for (std::uint32_t i = 0; i < many; ++i) {
     for (int k = 0; k < 3; ++k)
       positions.push_back(in_plane(snapped(random.uniform(-3, 3)), snapped(random.uniform(-3, 3))));
     faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
