@@ -74,7 +74,7 @@ struct SurfaceBatch {
   // Not 0 where the lanes cannot be sure; and whether that is so anywhere.
   alignas(64) Channel<double> doubtful;
   bool any_doubtful = false;
-  // Of triangles, its own from batch to batch, all of one scene.
+  // Of triangles, its own from batch to batch, all of one scene and for one instruction set.
   std::unique_ptr<TriangleRuns> triangle_runs;
 };
 
