@@ -49,6 +49,7 @@ TEST_CASE("session: pictures are the headless ones, after whatever was pressed o
   session.press("z", kPanel);
   CHECK(session.state().n == 1);
   CHECK_FALSE(session.state().faults.any());
+  CHECK(window_title(session.state()) == open.file);  // for it has no title
   check_headless(session);
 }
 
@@ -130,6 +131,8 @@ TEST_CASE("session: modes by their keys, and layers in a ring") {
     session.press("Space", kPanel);
     CHECK(session.state().ledger_term == term);
   }
+  for (const char* key : {"Space", "1", "6"}) session.press(key, kPanel);
+  CHECK(session.state().ledger_term == 0);  // begun anew
   CHECK_FALSE(session.press("%", kPanel));
   for (int i = 0; i < 30; ++i) session.press(">", kPanel);
   CHECK(session.state().swipe == 1);
@@ -146,8 +149,9 @@ TEST_CASE("session: lessons ask first, then show") {
   CHECK(session.state().step == 0);
   CHECK_FALSE(session.state().revealed);
   CHECK(session.state().mode == Mode::side_by_side);
-  session.press("n", kPanel);
+  for (const char* key : {"6", "Space", "n"}) session.press(key, kPanel);
   CHECK(session.state().revealed);
+  CHECK(session.state().ledger_term == 0);
   CHECK(session.state().mode == Mode::causes);
   CHECK(session.state().camera.eye == glm::dvec3(0, 2, 7));
   CHECK(session.state().scene->trace.depth == 2);
@@ -171,15 +175,21 @@ TEST_CASE("session: neighbours in the folder, and their ends") {
   write_bytes(open.folder / "second.toml", kGoodScene);
   write_bytes(open.folder / "tenth.toml", "broken");
   Session session(open_state(open.file, open_small), open_small);
-  session.press("[", kPanel);
+  for (const char* key : {"t", "<", "["}) session.press(key, kPanel);
   CHECK(session.state().notice.text == "this is the first scene of its folder");
   session.press("]", kPanel);
   CHECK(std::filesystem::path(session.state().file).filename() == "second.toml");
+  CHECK(session.state().text_scale == 1.25);  // what is set for the room stays
+  CHECK(session.state().swipe == doctest::Approx(0.45));
   session.press("]", kPanel);
   CHECK(std::filesystem::path(session.state().file).filename() == "second.toml");
   CHECK(session.state().notice.error);
   session.press("n", kPanel);
   CHECK(session.state().notice.text == "this scene has no steps");
+  session.press("z", kPanel);
+  CHECK(session.state().notice.text == "");
+  for (int i = 0; i < 4; ++i) session.press("t", kPanel);  // up to twice as large, and back
+  CHECK(session.state().text_scale == 1);
 }
 
 TEST_CASE("session: slow motion draws the first objects only") {
@@ -200,6 +210,10 @@ TEST_CASE("session: slow motion draws the first objects only") {
   CHECK(session.state().rows == 36);
   session.worker().wait();
   for (const std::uint32_t id : session.worker().latest().rastered->object_id) CHECK(id == 0);
+  session.set_slow(0, -1);
+  CHECK(session.state().rows == 0);
+  session.press("z", kPanel);
+  CHECK(session.state().rows == 36);
   session.press("o", kPanel);
   check_headless(session);
 }
@@ -244,6 +258,8 @@ TEST_CASE("session: more samples than the keys reach are never made fewer by the
   CHECK(many.state().n == 16);
   many.press("A", kPanel);
   CHECK(many.state().n == 15);
+  for (int i = 0; i < 9; ++i) many.press("D", kPanel);
+  CHECK(many.state().scene->trace.depth == 1);
 }
 
 TEST_CASE("session: a pixel that a step's larger picture had is let go with the step") {

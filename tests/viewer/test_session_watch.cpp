@@ -18,7 +18,7 @@ TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and t
   CHECK_FALSE(session.watch());  // told once
   check_headless(session);
 
-  for (const char* key : {"Left", "f", "a"}) session.press(key, kPanel);
+  for (const char* key : {"Left", "f", "g", "r", "a", "4"}) session.press(key, kPanel);
   Faults faults;
   faults.tessellate = 8;
   session.set_faults(faults);
@@ -32,6 +32,9 @@ TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and t
   CHECK(session.state().scene->trace.depth == 3);
   CHECK(session.state().camera.eye == eye);  // the user's, as what follows
   CHECK_FALSE(session.state().scene->trace.shadows);
+  CHECK_FALSE(session.state().scene->trace.reflection);
+  CHECK_FALSE(session.state().scene->trace.refraction);
+  CHECK(session.state().mode == Mode::difference);
   CHECK(session.state().n == 2);
   CHECK(session.state().faults == faults);
   check_headless(session);
@@ -76,4 +79,20 @@ TEST_CASE("session: a mesh file under another name is read once the scene says s
   CHECK(session.state().notice.text == "");
   CHECK(session.state().opened.files.back() == open.folder / "b.obj");
   CHECK_FALSE(session.watch());
+}
+
+TEST_CASE("session: a saved file keeps the step that is shown and the mode, as long as it has the step") {
+  const std::string text = kGoodScene + "[[step]]\ntext = 'See.'\nmode = 'causes'\neye = [0, 2, 7]\n";
+  const Open open(text);
+  Session session(open_state(open.file, open_small), open_small);
+  for (const char* key : {"n", "n", "4"}) session.press(key, kPanel);
+  save_later(open.file, text + "# and more\n");
+  CHECK(session.watch());
+  CHECK(session.state().revealed);
+  CHECK(session.state().camera.eye == glm::dvec3(0, 2, 7));
+  CHECK(session.state().mode == Mode::difference);
+  save_later(open.file, kGoodScene);
+  CHECK(session.watch());
+  CHECK(session.state().step == -1);
+  CHECK_FALSE(session.state().revealed);
 }
