@@ -33,7 +33,7 @@ bool same_picture(const WindowState& state, const Scene& scene) {
 
 TEST_CASE("save: the new file loads to what was shown, and no file is overwritten") {
   const Workplace here;
-  write_bytes(here / "scene.toml", kGoodScene + kStep);
+  write_bytes(here / "scene.toml", "background = 0.25\n" + kGoodScene + kStep);
   write_bytes(here / "scene-2.toml", "mine");
   Session session(open_state(here / "scene.toml", open_plain), open_plain);
   for (const char* key : {"n", "n", "Left", "Shift+Up", ".", "D", "g"}) session.press(key, kPanel);
@@ -58,9 +58,7 @@ TEST_CASE("copy as command: explain then prints the inspector's words") {
   session.press("y", kPanel);
   CHECK(session.take_clipboard() == "");  // nothing inspected
   session.inspect({40, 26});
-  session.press("Left", kPanel);
-  session.press("D", kPanel);
-  session.press("y", kPanel);
+  for (const char* key : {"Left", "D", "a", "y"}) session.press(key, kPanel);
   const std::string command = session.take_clipboard();
   CHECK(session.take_clipboard() == "");
   REQUIRE(command.rfind("sidelight explain ", 0) == 0);
@@ -70,11 +68,11 @@ TEST_CASE("copy as command: explain then prints the inspector's words") {
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   const Inspection inspection = *inspect_pixel(session.state(), rested(session));
-  REQUIRE(inspection.samples.size() == 1);
-  CHECK(outcome.out.find(raster_words(*inspection.scene, inspection.samples[0].raster, 1)) !=
-        std::string::npos);
-  CHECK(outcome.out.find(ray_words(*inspection.scene, inspection.samples[0].raytrace, 1)) !=
-        std::string::npos);
+  REQUIRE(inspection.samples.size() == 4);
+  for (const ExplainedSample& sample : inspection.samples) {
+    CHECK(outcome.out.find(raster_words(*inspection.scene, sample.raster, 1)) != std::string::npos);
+    CHECK(outcome.out.find(ray_words(*inspection.scene, sample.raytrace, 1)) != std::string::npos);
+  }
 }
 
 TEST_CASE("inspection: rays start where the eye's ends, and the lobe's value is the model's") {
@@ -101,6 +99,31 @@ TEST_CASE("inspection: rays start where the eye's ends, and the lobe's value is 
     }
   }
   CHECK(lobes > 3);
+}
+
+TEST_CASE("inspection: rays to lights, free and blocked, and the lobe of the brighter of two") {
+  const Workplace here;
+  // In the middle a wall stands between the floor and the first lamp; the second, from a direction, is far brighter.
+  write_bytes(
+      here / "scene.toml",
+      "[picture]\nsize = [9, 9]\n[camera]\neye = [0, 4, 0]\nlook_at = [0, 0, 0]\nvertical_fov = 10\n"
+      "[[light]]\nposition = [9, 2, 0]\nintensity = 0.01\n[[light]]\ndirection = [1, -1, 0]\nintensity = 1\n"
+      "[material.floor]\ndiffuse = 0.5\nspecular = 1\n"
+      "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = 'floor'\n"
+      "[[sphere]]\ncenter = [4.5, 1, 0]\nradius = 0.5\nmaterial = 'floor'\n");
+  WindowState state = open_state(here / "scene.toml", opener(9, 9));
+  state.inspected = {4, 4};
+  const Inspection inspection = *inspect_pixel(state, render_pictures(picture_task(state)));
+  const std::vector<RaySegment> segments = ray_segments(inspection);
+  REQUIRE(segments.size() == 2);
+  CHECK(segments[0].kind == SegmentKind::light_blocked);
+  CHECK(segments[0].to == state.scene->lights[0].position);
+  CHECK(segments[1].kind == SegmentKind::light_seen);
+  const glm::dvec3 way = segments[1].to - segments[1].from;
+  CHECK(glm::distance(glm::normalize(way), -state.scene->lights[1].direction) < 1e-12);
+  const Lobe lobe = *specular_lobe(inspection);
+  CHECK(lobe.light == 1);
+  CHECK(lobe.light_angle == doctest::Approx(std::numbers::pi / 4));
 }
 
 // All angles from N: in the middle of the picture the lamp is 36.9 degrees from it, Rl as much to the other side, and the eye
