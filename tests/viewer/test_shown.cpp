@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the window says of its pictures.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "tests/viewer/session.h"
 #include "viewer/window/shown.h"
@@ -29,6 +30,74 @@ TEST_CASE("window: captions say what the pictures hold, and what they wait for")
   CHECK(show(state, pictures, finished).panels.at(0).caption.name ==
         "what made the difference (of the view before)");
   CHECK(show(state, finished, finished).panels.at(0).caption.name == "what made the difference");
+}
+
+TEST_CASE("window: in place the key shows the other picture") {
+  const Workplace here;
+  WindowState state = open_state(here / "good.toml", opener(48, 36));
+  state.mode = Mode::flip;
+  const Pictures pictures = render_pictures(picture_task(state));
+  for (const bool flipped : {false, true}) {
+    state.view.flipped = flipped;
+    const Shown shown = show(state, pictures, pictures);
+    REQUIRE(shown.panels.size() == 1);
+    CHECK(shown.panels[0].of_left != flipped);
+  }
+  const ShownKey key = shown_key(state, pictures, pictures);
+  state.view.flipped = false;
+  CHECK_FALSE(key == shown_key(state, pictures, pictures));  // so it is drawn anew
+}
+
+TEST_CASE(
+    "window: numbers are those of the pixel, in a part of the picture too, and times only where asked for") {
+  const Workplace here;
+  // Behind the triangles of a box no object has the number of its primitive.
+  write_bytes(here / "box.toml",
+              "[[mesh]]\nshape = 'box'\nsize = [1, 1, 1]\nmaterial = 'red'\n" + kGoodScene);
+  WindowState state = open_state(here / "box.toml", opener(48, 36));
+  state.opened.options.crop = {10, 8, 40, 30};
+  CHECK(shown_part(state) == state.opened.options.crop);
+  Pictures pictures = render_pictures(picture_task(state));
+  std::size_t at = 30 * 22 - 1;  // the last that differs
+  while (pictures.rastered->color[at] == pictures.traced->color[at]) --at;
+  const glm::ivec2 pixel(10 + static_cast<int>(at % 30), 8 + static_cast<int>(at / 30));
+  const auto lines_of = [](const glm::vec3& v) {
+    return std::vector{fmt::format("{:.4f}", v.x), fmt::format("{:.4f}", v.y), fmt::format("{:.4f}", v.z)};
+  };
+  const auto panel = [&](Mode mode, std::size_t i) {
+    state.mode = mode;
+    return show(state, pictures, pictures).panels.at(i);
+  };
+  const glm::vec3 left = pictures.rastered->color[at], right = pictures.traced->color[at];
+  CHECK(panel(Mode::side_by_side, 0).numbers(pixel) == lines_of(left));
+  CHECK(panel(Mode::side_by_side, 1).numbers(pixel) == lines_of(right));
+  CHECK(panel(Mode::side_by_side, 1).numbers({30, 30}).empty());
+  CHECK(panel(Mode::difference, 0).numbers(pixel) == lines_of(right - left));
+  CHECK(panel(Mode::object, 0).numbers(pixel) ==
+        std::vector{fmt::format("{}", pictures.traced->object_id[at])});
+
+  pictures.left.per_second = 3.14e6;
+  CHECK(panel(Mode::side_by_side, 0).caption.times->rate == "3.1 M samples/s");
+  state.opened.times = false;
+  CHECK_FALSE(panel(Mode::side_by_side, 0).caption.times.has_value());
+
+  state.slow = true;
+  state.rows = 20;  // of the whole picture: 12 of the part
+  const Image8 image = panel(Mode::side_by_side, 1).image;
+  const std::vector<std::uint8_t> black(image.rgb.size() - 12 * 30 * 3);
+  CHECK(std::equal(black.begin(), black.end(), image.rgb.begin() + 12 * 30 * 3));
+  CHECK(std::any_of(image.rgb.begin(), image.rgb.begin() + 12 * 30 * 3, [](auto code) { return code != 0; }));
+
+  pictures.block = 2;  // a coarse block's number is no pixel's
+  CHECK(panel(Mode::side_by_side, 1).numbers(pixel).empty());
+}
+
+TEST_CASE("window: causes are told in percent") {
+  Comparison comparison;
+  comparison.width = 8;
+  comparison.height = 5;
+  comparison.reflection = {10, 0.125};
+  CHECK(cause_lines(comparison).at(1) == "reflection: 25.0 % of pixels, mean 0.1250");
 }
 
 TEST_CASE("window: faults on purpose are said in the smallest window") {
