@@ -28,3 +28,33 @@ TEST_CASE("info writes the weight of a secondary ray as it is used: never above 
   CHECK(outcome.code == 0);
   CHECK(outcome.out.find("w(r) 1/max(1, 0.5 + 0.25 r + 2 r²), ") != std::string::npos);
 }
+
+TEST_CASE("info tells what is in the scene, and of many objects and materials how many more") {
+  const Workplace here;
+  std::string scene =
+      "title = 'All'\nambient = [0.1, 0.2, 0.3]\n" + kGoodScene +
+      "[trace]\nreflection = false\n[[light]]\ndirection = [0, -2, 0]\nintensity = [0.5, 0.25, 1]\n" +
+      "[[mesh]]\nfile = 'six.obj'\n[[mesh]]\nshape = 'box'\nsize = [1, 1, 1]\nmaterial = 'red'\n";
+  for (int i = 0; i < 40; ++i) scene += "[[sphere]]\ncenter = [0, 0, -9]\nradius = 1\nmaterial = 'red'\n";
+  std::string mtl, obj = "mtllib six.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const char* name : {"a", "b", "c", "d", "e", "f"}) {
+    mtl += std::string("newmtl ") + name + "\n";
+    obj += std::string("usemtl ") + name + "\nf 1 2 3\n";
+  }
+  write_bytes(here / "six.obj", obj);
+  write_bytes(here / "six.mtl", mtl);
+  write_bytes(here / "scene.toml", scene);
+  const Outcome outcome = here.run({"info", "scene.toml", "-r", "20x10", "--spp", "9"});
+  CAPTURE(outcome.out);
+  CHECK(outcome.code == 0);
+  for (const char* line :
+       {"title      All\n", "picture    20x10, 9 sample(s) per pixel\n",
+        "camera     eye (0, 1, 6), looks at (0, 0, 0), view height 0.72794 at distance 1\n",
+        "objects    45 (18 triangles, 42 spheres, 1 planes)\n",
+        "sphere, material glass, solid of index 1.5\n",
+        "mesh, materials a, b, c, d and 2 more, 6 triangles, open\n",
+        "mesh, material red, 12 triangles, closed\n", "  ... and 5 more\n",
+        "lights     2, ambient (0.1, 0.2, 0.3)\n", "directional (0, -1, 0), intensity (0.5, 0.25, 1)\n",
+        "shadows on, reflection off, refraction on\n"})
+    CHECK_MESSAGE(outcome.out.find(line) != std::string::npos, line);
+}
