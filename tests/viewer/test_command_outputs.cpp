@@ -166,6 +166,15 @@ TEST_CASE("output: the statistics have the documented keys") {
   CHECK(json["frame_ms"]["runs"] == 2);
   CHECK(json["rays"]["primary"] == 16 * 12 * 4);
   CHECK(json["tests"] > 16 * 12 * 4);  // each of them asks at least the plane
+  CHECK(json["cut_weight"] > 0);
+
+  write_bytes(here / "good.toml", "trace.contribution_cut = 0\n" + kGoodScene);
+  const Outcome cut = here.run(render({"-o", "a.png", "--no-reflection", "--depth", "3", "--stats", "-"}));
+  REQUIRE(cut.code == 0);
+  const auto some = nlohmann::json::parse(cut.out);
+  CHECK(some["rays"]["reflection"] == 0);
+  CHECK(some["rays"]["refraction"] > 0);
+  CHECK(some["cut_weight"] == 0);
 }
 
 TEST_CASE("output: the z-buffer's statistics tell where its time goes") {
@@ -223,6 +232,7 @@ TEST_CASE("output: compare writes its nine files and the documented keys") {
   const auto equal = nlohmann::ordered_json::parse(read_bytes(here / "local/compare.json"));
   CHECK(equal["metrics"]["psnr"].is_null());  // identical
   CHECK(equal["metrics"]["max"]["value"] == 0);
+  CHECK(read_bytes(here / "local/report.html").find(" --local --pixel ") != std::string::npos);
 
   REQUIRE(here.run(compare_into("part", {"--crop", "4,2,16,12"})).code == 0);
   const auto part = nlohmann::ordered_json::parse(read_bytes(here / "part/compare.json"));

@@ -55,6 +55,8 @@ TEST_CASE("fault flags: compare counts spoiled pixels apart and exits with 1") {
   CHECK(json["visibility_mismatches"] == 0);
   for (const char* file : {"out/raster.exr", "out/side_by_side.png", "out/report.html"})
     CHECK(read_bytes(here / file).find("shadow-offset 0, tessellate 16") != std::string::npos);
+  CHECK(read_bytes(here / "out/report.html").find(" --shadow-offset 0 --tessellate 16</code>") !=
+        std::string::npos);
 }
 
 // Floats, a million from the eye, make the two pictures name different facets of one ball in one colour. Alone they change

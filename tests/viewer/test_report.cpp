@@ -200,16 +200,17 @@ TEST_CASE("report: highlights of the first twelve shiny materials, the rest coun
 TEST_CASE("report: holds the pictures of its folder, the numbers and what to type next") {
   const Workplace here;
   std::filesystem::rename(here / "good.toml", here / "it's good.toml");
-  REQUIRE(here.run({"compare", "it's good.toml", "-r", "64x48", "-o", "out", "--depth", "3"}).code == 0);
+  const Arguments compare{"compare", "it's good.toml", "-r", "64x48", "-o", "out"};
+  REQUIRE(here.run(compare + Arguments{"--spp", "4", "--depth", "3", "--no-refraction"}).code == 0);
   const std::string page = read_bytes(here / "out/report.html");
   for (const char* picture : {"raster.png", "raytrace.png", "causes.png"})
     CHECK(contains(page, embedded(here / ("out/" + std::string(picture)))));
   CHECK(contains(page, "Every pixel is accounted for"));
   CHECK(contains(page, " ms</td>"));
-
   // The line it gives is one that a shell takes.
   std::string line = between(page, "<pre><code>", "</code></pre>");
-  CHECK(contains(line, " -r 64x48 --depth 3 --pixel "));
+  CHECK(line.ends_with(" -r 64x48 --spp 4 --depth 3 --no-refraction --pixel " +
+                       between(page, "The pictures differ most at pixel ", ". Why")));
   for (std::size_t at; (at = line.find("&#39;")) != std::string::npos;) line.replace(at, 5, "'");
   REQUIRE(line.rfind("sidelight explain ", 0) == 0);
   const Outcome outcome = here.run_in_shell("\"$0\" " + line.substr(10), {});
