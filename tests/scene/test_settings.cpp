@@ -149,3 +149,48 @@ TEST_CASE("settings: where a table is made of dotted keys, so is the new one") {
   CHECK(with("material = { glass.ior = 2 }\n", {{"material.glass.diffuse", "1"}}) ==
         "material = { glass.diffuse = 1, glass.ior = 2 }\n");
 }
+
+// What settings_between forgets, it cannot miss in a scene that was read again.
+TEST_CASE("settings: each change of what a scene file says is the setting of its name") {
+  const Scene before = parse_scene(
+      "camera = { eye = [0, 0, 5], look_at = [0, 0, 0], view_height = 1 }\n"
+      "material.m = { diffuse = 0.5 }\n"
+      "light = [{ position = [1, 2, 3], intensity = 1 }, { direction = [0, -1, 0], intensity = 1 }]\n",
+      "s.toml");
+  const auto changes = [&](const std::string& path, void (*change)(Scene&)) {
+    CAPTURE(path);
+    Scene after = before;
+    change(after);
+    const Settings settings = settings_between(before, after);
+    REQUIRE(settings.size() == 1);
+    CHECK(settings[0].first == path);
+  };
+  changes("background", [](Scene& s) { s.background.z = 2; });
+  changes("ambient", [](Scene& s) { s.ambient.z = 2; });
+  changes("picture.size", [](Scene& s) { ++s.width; });
+  changes("picture.size", [](Scene& s) { ++s.height; });
+  changes("camera.eye", [](Scene& s) { s.camera.eye.z = 2; });
+  changes("camera.look_at", [](Scene& s) { s.camera.look_at.z = 2; });
+  changes("camera.up", [](Scene& s) { s.camera.up.z = 2; });
+  changes("camera.view_height", [](Scene& s) { s.camera.view_height = 2; });
+  changes("trace.depth", [](Scene& s) { s.trace.depth = 2; });
+  changes("trace.contribution_cut", [](Scene& s) { s.trace.contribution_cut = 0.5; });
+  changes("trace.secondary_attenuation", [](Scene& s) { s.trace.secondary_attenuation.q0 = 2; });
+  changes("trace.secondary_attenuation", [](Scene& s) { s.trace.secondary_attenuation.q2 = 2; });
+  changes("trace.shadows", [](Scene& s) { s.trace.shadows = false; });
+  changes("trace.reflection", [](Scene& s) { s.trace.reflection = false; });
+  changes("trace.refraction", [](Scene& s) { s.trace.refraction = false; });
+  changes("light.0.intensity", [](Scene& s) { s.lights[0].intensity.z = 2; });
+  changes("light.0.position", [](Scene& s) { s.lights[0].position.z = 2; });
+  changes("light.0.attenuation", [](Scene& s) { s.lights[0].attenuation.q1 = 2; });
+  changes("light.1.direction", [](Scene& s) { s.lights[1].direction = {0, 0, 1}; });
+  changes("material.m.ambient", [](Scene& s) { s.materials[0].ambient.z = 2; });
+  changes("material.m.diffuse", [](Scene& s) { s.materials[0].diffuse.z = 2; });
+  changes("material.m.specular", [](Scene& s) { s.materials[0].specular.z = 2; });
+  changes("material.m.shininess", [](Scene& s) { s.materials[0].shininess = 2; });
+  changes("material.m.local", [](Scene& s) { s.materials[0].local.z = 2; });
+  changes("material.m.reflect", [](Scene& s) { s.materials[0].reflect.z = 2; });
+  changes("material.m.refract", [](Scene& s) { s.materials[0].refract.z = 2; });
+  changes("material.m.ior", [](Scene& s) { s.materials[0].ior = 2; });
+  changes("material.m.casts_shadow", [](Scene& s) { s.materials[0].casts_shadow = false; });
+}
