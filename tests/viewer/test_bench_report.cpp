@@ -137,7 +137,16 @@ TEST_CASE("bench report: equal arguments give equal bytes") {
 
 TEST_CASE(
     "bench report: the page holds every picture once, the tables, the reference image and the summary") {
-  const std::string page = bench_report(bench_result());
+  BenchResult result = bench_result();
+  result.points[0].error.covered.metrics.rms = 0.375;
+  result.points[0].cpu_ms = {1, 2, 3};
+  result.points[0].frame_memory_mb = 1.5;
+  result.points[0].build_memory_mb = 2.5;
+  const std::string page = bench_report(result);
+  for (const char* cells :
+       {"<td>4.00e-08</td><td>1.00e-04</td><td>2.00e-02</td>", "<td>3,4</td>", "<td>3.75e-01</td>",
+        "<td>2.00 (1.00-3.00)</td><td>40.0 (36.0-44.0)</td>", "<td>1.5</td><td>2.5</td>"})
+    CHECK(contains(page, cells));
   CHECK(count(page, "id=\"picture-") == 7);  // one of the 8 is another's
   CHECK(contains(page, "the picture of raster, pixel for pixel"));
   CHECK(count(page, "id=\"difference-") == 8);

@@ -171,12 +171,16 @@ TEST_CASE("bench csv: every field comes back, whatever is in it") {
   BenchResult result = bench_result();
   result.scenes[0].path = "a,\"b\"\r\nc.toml";
   result.points[1].error.whole.metrics.rms = 0.1 + 0.2;
+  result.points[1].error.whole.p999 = 0.5;
+  result.points[1].cpu_ms.median = 7;
   const auto csv = parse_csv(bench_csv(result));
   REQUIRE(csv.size() == 1 + result.points.size());
   for (const auto& record : csv) CHECK(record.size() == csv[0].size());
   CHECK(field(csv, 1, "scene") == result.scenes[0].path);
   CHECK(field(csv, 3, "samples") == "4");
   CHECK(std::stod(field(csv, 2, "whole_rmse")) == 0.1 + 0.2);
+  CHECK(field(csv, 2, "whole_p999") == "0.5");
+  CHECK(field(csv, 2, "frame_cpu_ms_median") == "7");
   CHECK(field(csv, 8, "failures") == "12 samples show another surface");
   CHECK(field(csv, 8, "valid") == "0");
   CHECK(field(csv, 1, "on_front") == "1");
