@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/math/isa.h"
+#include "common/picture/image_io.h"
 #include "tests/tier.h"
 #include "tests/viewer/program.h"
 
@@ -227,6 +228,8 @@ TEST_CASE("output: compare writes its nine files and the documented keys") {
                                                "time_ms.raytrace.frame",
                                                "faults"});
   CHECK(json["faults"] == nlohmann::ordered_json::object());
+  CHECK(read_image(here / "out/raster.exr").metadata.at("renderer") == "raster");
+  CHECK(read_image(here / "out/raytrace.exr").metadata.at("renderer") == "raytrace");
 
   REQUIRE(here.run(compare_into("local", {"--local"})).code == 0);
   const auto equal = nlohmann::ordered_json::parse(read_bytes(here / "local/compare.json"));
@@ -237,6 +240,13 @@ TEST_CASE("output: compare writes its nine files and the documented keys") {
   REQUIRE(here.run(compare_into("part", {"--crop", "4,2,16,12"})).code == 0);
   const auto part = nlohmann::ordered_json::parse(read_bytes(here / "part/compare.json"));
   CHECK(part.at("crop") == nlohmann::ordered_json::array({4, 2, 16, 12}));
+
+  // A scene without a title has its path for one.
+  write_bytes(here / "titled.toml", "title = 'good.toml'\n" + kGoodScene);
+  for (const std::string scene : {"good", "titled"})
+    REQUIRE(here.run({"compare", scene + ".toml", "-r", "16x12", "-q", "--no-times", "-o", scene}).code == 0);
+  CHECK(colors(read_image(here / "good/side_by_side.png")) ==
+        colors(read_image(here / "titled/side_by_side.png")));
 }
 
 TEST_CASE("output: without times two runs write the same bytes") {
