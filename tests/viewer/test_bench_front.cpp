@@ -119,6 +119,12 @@ TEST_CASE("judge: fills fronts, summaries and ratios of a result") {
   CHECK(result.over_scenes[1].error->geometric_mean == doctest::Approx(2).epsilon(1e-12));
   CHECK(result.over_scenes[2].time->geometric_mean == doctest::Approx(std::sqrt(0.5)).epsilon(1e-12));
   CHECK(result.over_scenes[2].time->worst_scene == 0);
+
+  // With a front from (4, 8) to (6, 2) the second scene's speed-up is the greater one.
+  result.points[6].frame_ms = {6, 6, 6};
+  judge(result);
+  CHECK(*result.summaries[1].equal_error_speedup == doctest::Approx(8 / std::sqrt(24)).epsilon(1e-12));
+  CHECK(result.equal_error_speedup->worst_scene == 0);
 }
 
 TEST_CASE("judge: what is not finished or not timed is on no front") {

@@ -106,6 +106,7 @@ TEST_CASE("bench table: rows by time, with what they fail, the reference image a
   const std::vector<std::string> all = lines(table);
   CHECK(contains(all[2], "configuration"));
   CHECK(contains(all[3], " 1  raster precision=float "));
+  CHECK(contains(all[3], "  9.00e-02  9.00e-01  "));  // RMSE and the greatest error
   CHECK(contains(all[3], "fails: 12 samples show another surface"));
   CHECK(contains(all[10], " 8  raytrace samples=16 "));
   CHECK(contains(all[10], "  0         0           0  front"));                       // exactly zero
