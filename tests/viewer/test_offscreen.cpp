@@ -79,6 +79,8 @@ TEST_CASE("zoom climbs whole steps, and down to the whole picture") {
   CHECK(view.zoom == 0.5);
   CHECK(view.fitted);
   CHECK(zoom_about(fit({}, picture, large), picture, large, {99, 99}, -5).zoom == 1);
+  view = {.zoom = 0.25, .center = {320, 240}};  // of a smaller panel: out is not in
+  CHECK(zoom_about(view, picture, small, {100, 100}, -1).zoom == 0.25);
 }
 
 TEST_CASE("the picture point under the cursor stays there") {

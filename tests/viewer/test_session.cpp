@@ -110,6 +110,23 @@ TEST_CASE("worker: blocks become finer, and a new task cuts them short") {
   CHECK(worker.last_finished().task.n == 1);
 }
 
+TEST_CASE("worker: after a picture that failed the next one is without its error") {
+  const Open open;
+  PictureTask task = picture_task(open_state(open.file, open_small));
+  const Frame none;
+  task.options.primary = &none;  // which does not go with the layer of the cost
+  task.layer = Layer::cost;
+  Progressive worker;
+  worker.submit(task);
+  worker.wait();
+  CHECK(worker.latest().error != "");
+  task.options.primary = nullptr;
+  worker.submit(task);
+  worker.wait();
+  CHECK(worker.latest().finished);
+  CHECK(worker.latest().error == "");
+}
+
 TEST_CASE("session: modes by their keys, and layers in a ring") {
   const Open open;
   Session session(open_state(open.file, open_small), open_small);

@@ -49,6 +49,11 @@ TEST_CASE("save: the new file loads to what was shown, and no file is overwritte
   CHECK(saved.spheres[0].radius == 1.25);  // the step's
   CHECK(saved.camera.eye == session.state().camera.eye);
   CHECK(same_picture(session.state(), saved));
+
+  session.edit([](Scene& scene) { scene.lights[0].intensity.y = -1; });  // which no file may have
+  session.press("s", kPanel);
+  CHECK(session.state().notice.error);
+  CHECK_FALSE(std::filesystem::exists(here / "scene-4.toml"));
 }
 
 TEST_CASE("copy as command: explain then prints the inspector's words") {
@@ -113,9 +118,11 @@ TEST_CASE("inspection: rays to lights, free and blocked, and the lobe of the bri
       "[[sphere]]\ncenter = [4.5, 1, 0]\nradius = 0.5\nmaterial = 'floor'\n");
   WindowState state = open_state(here / "scene.toml", opener(9, 9));
   state.inspected = {4, 4};
+  state.n = 3;
   const Inspection inspection = *inspect_pixel(state, render_pictures(picture_task(state)));
   const std::vector<RaySegment> segments = ray_segments(inspection);
   REQUIRE(segments.size() == 2);
+  CHECK(segments[0].from == inspection.samples[4].raytrace.local.surface.point);  // of the middle one
   CHECK(segments[0].kind == SegmentKind::light_blocked);
   CHECK(segments[0].to == state.scene->lights[0].position);
   CHECK(segments[1].kind == SegmentKind::light_seen);

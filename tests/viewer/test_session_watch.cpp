@@ -18,7 +18,7 @@ TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and t
   CHECK_FALSE(session.watch());  // told once
   check_headless(session);
 
-  for (const char* key : {"Left", "f", "g", "r", "a", "4"}) session.press(key, kPanel);
+  for (const char* key : {"Left", "f", "g", "r", "a", "4", "D"}) session.press(key, kPanel);
   Faults faults;
   faults.tessellate = 8;
   session.set_faults(faults);
@@ -29,8 +29,8 @@ TEST_CASE("session: a saved file is loaded again, a mistake in it is told, and t
   CHECK(session.watch());
   CHECK(session.state().notice.text == "");
   CHECK(session.state().scene->spheres[0].radius == 2);
-  CHECK(session.state().scene->trace.depth == 3);
-  CHECK(session.state().camera.eye == eye);  // the user's, as what follows
+  CHECK(session.state().scene->trace.depth == 3);  // which the file changed, too
+  CHECK(session.state().camera.eye == eye);        // the user's, as what follows
   CHECK_FALSE(session.state().scene->trace.shadows);
   CHECK_FALSE(session.state().scene->trace.reflection);
   CHECK_FALSE(session.state().scene->trace.refraction);

@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include "tests/viewer/session.h"
+#include "viewer/window/frames.h"
+#include "viewer/window/offscreen.h"
 #include "viewer/window/shown.h"
-#include "viewer/window/window_panels.h"
 
 using namespace sidelight;
 using namespace sidelight::test;
@@ -100,6 +101,20 @@ TEST_CASE("window: causes are told in percent") {
   CHECK(cause_lines(comparison).at(1) == "reflection: 25.0 % of pixels, mean 0.1250");
 }
 
+TEST_CASE("window: the records of the inspected pixel are those of the view") {
+  const Open open;
+  Session session(open_state(open.file, opener(48, 36)), opener(48, 36));
+  session.inspect({20, 20});
+  FrameContents contents;
+  for (const char* key : {"1", "Left"}) {
+    session.press(key, kPanel);
+    session.worker().wait();
+    contents.update(session);
+    REQUIRE(contents.inspection());
+    CHECK(contents.inspection()->samples[0].raytrace.origin == session.state().camera.eye);
+  }
+}
+
 TEST_CASE("window: faults on purpose are said in the smallest window") {
   const Workplace here;
   WindowState state = open_state(here / "good.toml", opener(48, 36));
@@ -110,3 +125,29 @@ TEST_CASE("window: faults on purpose are said in the smallest window") {
   state.faults.tessellate = 8;
   CHECK(title() > 0);
 }
+
+#ifdef SIDELIGHT_HAVE_OSMESA
+
+TEST_CASE("window: under the causes the mismatches stand before what is unexplained") {
+  const Workplace here;
+  WindowState state = open_state(here / "good.toml", opener(48, 36));
+  state.mode = Mode::causes;
+  Pictures pictures = render_pictures(picture_task(state));
+  const Comparison agreed = *pictures.comparison;
+  // The leftmost column that changes with one of the counts.
+  const auto column = [&](std::uint64_t Comparison::*number) {
+    std::array<Image8, 2> shots;
+    for (std::size_t k = 0; k < 2; ++k) {
+      pictures.comparison = agreed;
+      (*pictures.comparison).*number = k;
+      shots[k] = screenshot(state, pictures, 1000, 700);
+    }
+    std::size_t least = 3000;
+    for (std::size_t i = 0; i < shots[0].rgb.size(); ++i)
+      if (shots[0].rgb[i] != shots[1].rgb[i]) least = std::min(least, i % 3000);
+    return least;
+  };
+  CHECK(column(&Comparison::visibility_mismatches) < column(&Comparison::unexplained));
+}
+
+#endif
