@@ -117,4 +117,48 @@ TEST_CASE("keyboard: Tab goes round the open panels") {
   });
 }
 
+TEST_CASE(
+    "keyboard: each slider of the material turns its own coefficient, and a depth format comes with its "
+    "planes") {
+  with_keys([](Session& session, const std::function<void(const char*)>& press) {
+    session.edit([](Scene& scene) {
+      Material& material = scene.materials[0];
+      material.ambient = material.diffuse = material.specular = glm::dvec3(0.5);
+      material.local = material.reflect = material.refract = glm::dvec3(0.5);
+      material.shininess = 10;
+      material.ior = 2;
+    });
+    Material before = session.state().scene->materials[0];
+    std::string turned;  // in order
+    bool planes = false;
+    const auto note = [&] {
+      const Material& now = session.state().scene->materials[0];
+      const auto look = [&](const char* name, auto field) {
+        if (now.*field != before.*field && !turned.ends_with(name)) turned += name;
+      };
+      look(" ka", &Material::ambient);
+      look(" kd", &Material::diffuse);
+      look(" ks", &Material::specular);
+      look(" s", &Material::shininess);
+      look(" c1", &Material::local);
+      look(" c2", &Material::reflect);
+      look(" c3", &Material::refract);
+      look(" ior", &Material::ior);
+      before = now;
+      const Faults& faults = session.state().faults;
+      planes =
+          planes || (faults.depth_format && 0 < faults.near_plane && faults.near_plane < faults.far_plane);
+    };
+    press("c");
+    press("Tab");
+    for (int i = 0; i < 40 && !planes; ++i)
+      for (const char* key : {"Down", "Space", "Right", "Enter"}) {
+        press(key);
+        note();
+      }
+    CHECK(turned == " ka kd ks s c1 c2 c3 ior");
+    CHECK(planes);
+  });
+}
+
 #endif
