@@ -165,6 +165,12 @@ TEST_CASE("every camera is orthonormal to 4 eps") {
   HardCase("CAM-1").at_most("entries of B^T B - I, in units of eps", worst / kEps, 4);
 }
 
+TEST_CASE("what of a direction is too small to move a sample is zero") {
+  const Camera camera = make_camera(looking({0, 0, 5}, {1e-110, 0, 0}), 4, 4, 1);
+  CHECK(camera.forward == glm::dvec3(0, 0, -1));
+  CHECK(camera.right.z == 0);
+}
+
 TEST_CASE("an up that says nothing is replaced by the least aligned axis, the later one on a tie") {
   const glm::dvec3 down{0, -1, 0};  // x and z tie: z serves; right = down x z = -x
   for (const glm::dvec3& up :

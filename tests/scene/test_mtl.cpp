@@ -79,6 +79,10 @@ TEST_CASE("mtl: one warning names all that is passed over") {
                   "m.mtl:2:1: passed over: d, map_Kd, Ke, illum 7 without Tf, Tr, illum 4, newmtl a again"));
   REQUIRE(mtl.materials.size() == 2);
   CHECK(mtl.materials[0].diffuse == dvec3(0));
+
+  std::string text = "newmtl a\n";
+  for (int i = 0; i < 17; ++i) text += "x" + std::to_string(i) + " 1\n";
+  CHECK(ends_with(parsed(text).warnings.at(0), ", x14, x15, and more"));
 }
 
 TEST_CASE("mtl: mistakes name their line and column") {

@@ -59,6 +59,9 @@ TEST_CASE("needs: lights count where they are not black, their fall where it is 
   CHECK(names(scene) == Names{});
   scene.lights[0].intensity.y = 1;
   CHECK(names(scene) == Names{"light attenuation", "live lights"});
+  scene.lights[0].directional = true;  // no distance to fall with
+  CHECK(names(scene) == Names{"live lights"});
+  scene.lights[0].directional = false;
   scene.lights[0].attenuation = {};
   CHECK(names(scene) == Names{"live lights"});
 }
@@ -77,6 +80,12 @@ TEST_CASE("needs: solids overlap where their bounds meet, touching included") {
     add_glass(three, {0, 0, 0});
     CHECK_MESSAGE(needs_of(three)[Need::overlapping_solids] == meet, second);
   }
+}
+
+TEST_CASE("needs: bounds meet where they touch") {
+  const Bounds first{glm::dvec3(0), glm::dvec3(1)}, second{glm::dvec3(1, 0, 0), glm::dvec3(2)};
+  CHECK(first.meets(second));
+  CHECK(second.meets(first));
 }
 
 TEST_CASE("needs: a long row of balls along any axis, which do not meet but for the last") {

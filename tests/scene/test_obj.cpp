@@ -179,6 +179,7 @@ TEST_CASE("obj: mistakes name their line and column") {
       {"f 1 2 3\n" + kTriangle,
        "t.obj:1:3: index '1' of v, expected none, since there is no v before this line"},
       {kTriangle + "f 1/1 2/1 3/1", "t.obj:4:5: index '1' of vt, expected none"},
+      {kTriangle + "vt 0\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1", "t.obj:6:11: index '2' of vt, expected 1 to 1"},
       {kTriangle + "vn 0 0 1\nf 1//1 2//2 3//1", "t.obj:5:11: index '2' of vn, expected 1 to 1"},
       {kTriangle + "vt 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/-2", "t.obj:6:19: index '-2' of vn"},
       {kTriangle + "vn 0 0 1\nf 1//1 2 3//1",

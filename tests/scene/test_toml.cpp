@@ -80,6 +80,7 @@ refraction = false
   CHECK_FALSE(scene.trace.shadows);
   CHECK_FALSE(scene.trace.reflection);
   CHECK_FALSE(scene.trace.refraction);
+  CHECK(parse("trace.secondary_attenuation = [0, 0, 1e-30]").trace.secondary_attenuation.q2 == 1e-30);
 }
 
 TEST_CASE("toml: lights keep the order of the file") {

@@ -246,6 +246,7 @@ TEST_CASE("toml errors: ranges") {
          {"trace.contribution_cut = 1.5", "1:26", "expected a number from 0 to 1"},
          {"trace.contribution_cut = -0.1", "1:26", "expected a number from 0 to 1"},
          {"trace.secondary_attenuation = [0, 0, 0]", "1:31", "expected 3 coefficients with a sum above 0"},
+         {"trace.secondary_attenuation = [9e-31, 0, 0]", "1:31", "(from 1e-30)"},
          {"trace.secondary_attenuation = [1, -1, 0]", "1:35", "is -1"},
          {"material.x.diffuse = -0.1", "1:22", "is -0.1"},
          {"material.x.shininess = -1", "1:24", "expected a number from 0 to 1e6"},

@@ -26,6 +26,10 @@ TEST_CASE("toml errors: spheres and planes") {
   CHECK(
       error_of(sphere + "radius = 1\nmaterial = 'm'" + kCamera).find("a material: one, but there are none") !=
       std::string::npos);
+  std::string many;  // of which a message names 20
+  for (int i = 10; i < 31; ++i) many += "[material.n" + std::to_string(i) + "]\n";
+  CHECK(error_of(sphere + "radius = 1\nmaterial = 'other'" + kCamera + many).find("n28, n29, ...") !=
+        std::string::npos);
 }
 
 TEST_CASE("toml errors: meshes written out") {

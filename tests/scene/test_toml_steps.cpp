@@ -185,6 +185,10 @@ TEST_CASE("toml: a step's eye must not be where the camera looks") {
   CHECK(error.find("scene.toml:1:1: 'look_at' is an array of 3, expected a point other than the eye") == 0);
   CHECK(parse("[[step]]\ntext = ''\neye = [0, 0, 0]\nset = { 'camera.look_at' = [0, 0, 1] }").steps.size() ==
         1);
+  // With other settings a step is not checked: it starts from the file without them.
+  const TempFolder folder;
+  const std::string path = folder.write("scene.toml", "[[step]]\ntext = ''\neye = [0, 0, 1]" + kCamera);
+  CHECK(load_scene_with(path, {{"camera.look_at", "[0, 0, 1]"}}).steps.size() == 1);
 }
 
 TEST_CASE("toml: a lesson has at most 100 steps") {
