@@ -50,20 +50,30 @@ TEST_CASE("explain: all samples, one sample, and the picture's file agree in eve
     CAPTURE(name);
     const Json all = explained(here, {"--pixel", name, "--spp", "9"});
     REQUIRE(all.at("samples").size() == 9);
+    CHECK(all.at("samples").at(5).at("sample") == Json{2, 1});  // row by row
     for (const char* renderer : {"raster", "raytrace"})
       CHECK(color(all.at("color").at(renderer)) == rendered(here, renderer, pixel.x, pixel.y));
 
     for (const Json& sample : all.at("samples")) {
-      const std::string i = std::to_string(sample.at("sample").at(0).get<int>()),
-                        j = std::to_string(sample.at("sample").at(1).get<int>());
-      if (i != j) continue;  // three of nine will do
-      const Json one = explained(here, {"--pixel", name, "--spp", "9", "--sample", i + "," + j});
+      const int i = sample.at("sample").at(0), j = sample.at("sample").at(1);
+      if (j != (i + 1) % 3) continue;  // three of nine will do
+      const Json one = explained(
+          here, {"--pixel", name, "--spp", "9", "--sample", std::to_string(i) + "," + std::to_string(j)});
       REQUIRE(one.at("samples").size() == 1);
       CHECK(one.at("samples").at(0) == sample);
       CHECK(one.at("color").at("raytrace") == sample.at("raytrace").at("color"));
       CHECK(one.at("color").at("raster") == sample.at("raster").at("color"));
     }
   }
+}
+
+TEST_CASE("explain: fragments that were kept, and what a ray is multiplied by") {
+  const Workplace here;
+  const Json sample = explained(here, {"--pixel", "42,26"}).at("samples").at(0);
+  std::vector<bool> kept;  // the red ball, the glass before it, the plane behind both
+  for (const Json& fragment : sample.at("raster").at("fragments")) kept.push_back(fragment.at("kept"));
+  CHECK(kept == std::vector<bool>{true, true, false});
+  CHECK(color(sample.at("raytrace").at("children").at(0).at("coefficient")) == glm::vec3(0.9f));
 }
 
 TEST_CASE("explain: pixels and samples that are none are wrong usage") {
