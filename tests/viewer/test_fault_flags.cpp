@@ -78,6 +78,15 @@ TEST_CASE("fault flags: what two faults spoil together is counted in none of the
               .code == 0);
 }
 
+TEST_CASE("fault flags: facets spoil the depth of pixels whose colour they keep") {
+  const Workplace here;
+  REQUIRE(here.run({"compare", "scenes/hard/far-ball.toml", "-r", "64x48", "-o", "out", "-q", "--tessellate",
+                    "16"})
+              .code == 1);
+  const auto json = nlohmann::json::parse(read_bytes(here / "out/compare.json"));
+  CHECK(json["faults"]["tessellate"].get<int>() >= json["covered"].get<int>());  // and round the balls
+}
+
 TEST_CASE("fault flags: a fault that spoils nothing is named with 0 and exits with 0") {
   const Workplace here;
   const Outcome outcome = here.run({"compare", "scenes/hard/depth-format.toml", "-r", "64x48", "-o", "out",
