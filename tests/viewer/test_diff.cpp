@@ -64,6 +64,7 @@ TEST_CASE("diff: the tolerances of the command line") {
   write_exr(here / "a.exr", frame);
   for (const std::size_t i : {std::size_t{3}, std::size_t{44}, std::size_t{99}}) frame.color[i].z += 0.25f;
   write_exr(here / "b.exr", frame);
+  CHECK(here.run({"diff", "a.exr", "b.exr"}).err.find("greatest 0.25 at 3,0 in B,") != std::string::npos);
   const auto code = [&](const Arguments& more) { return diff(here, "a.exr", "b.exr", more); };
   CHECK(code({"--fail", "0.25"}) == 0);
   CHECK(code({"--fail", "0.2499"}) == 1);
@@ -99,6 +100,8 @@ TEST_CASE("diff: the documented findings, and the difference as a picture") {
   CHECK(json["metrics"]["mean"].get<double>() == doctest::Approx(0.75 / 36));
   CHECK(json["metrics"]["psnr"].is_number());
   CHECK(json["differing"] == Json{{"object", 1}, {"primitive", 2}, {"depth", 0}});
+  CHECK(here.run({"diff", "a.exr", "b.exr"}).err.find("; 40 % of those with an object\n") !=
+        std::string::npos);
 
   const ImageFile difference = read_image(here / "d.png");
   CHECK(difference.width == 4);
@@ -133,6 +136,7 @@ TEST_CASE("diff: exit code 4 where sizes or channels differ") {
   write_exr(here / "turned.exr", grey(4, 6));  // as many pixels
   write_exr(here / "crop.exr", grey(12, 8, 0, {2, 1, 8, 5}));
   write_exr(here / "moved.exr", grey(12, 8, 0, {3, 1, 9, 5}));
+  write_exr(here / "taller.exr", grey(12, 9, 0, {2, 1, 8, 5}));
   write_8bit(here / "a.png", grey(6, 4));
   write_8bit(here / "turned.png", grey(4, 6));
   REQUIRE(here.command({"oiiotool", "a.png", "--ch", "R,G,B,A=1", "-o", "alpha.png"}).code == 0);
@@ -142,6 +146,7 @@ TEST_CASE("diff: exit code 4 where sizes or channels differ") {
                              {"a.png", "turned.exr"},
                              {"a.exr", "crop.exr"},
                              {"crop.exr", "moved.exr"},
+                             {"crop.exr", "taller.exr"},
                              {"a.png", "alpha.png"}}) {
     CAPTURE(a);
     CAPTURE(b);
@@ -172,6 +177,8 @@ TEST_CASE("diff: a crop is compared in its place, and with a PNG of its size") {
   CHECK(diff(here, "a.png", "a.exr") == 0);
   CHECK(findings(here, "a.png", "b.exr")["metrics"]["max"]["x"] == 7);
   CHECK(findings(here, "a.png", "b.exr").at("crop") == json.at("crop"));
+  write_exr(here / "corner.exr", grey(12, 8, 0, {0, 0, 6, 4}));
+  CHECK(findings(here, "a.png", "corner.exr").at("crop") == Json::array({0, 0, 6, 4}));
   CHECK_FALSE(findings(here, "a.png", "a.png").contains("crop"));  // which knows of no whole
 }
 
