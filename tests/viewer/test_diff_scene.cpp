@@ -96,7 +96,7 @@ TEST_CASE("diff with a scene: the worst pixels stand apart, with both colours an
     const int x = worst[i]["x"], y = worst[i]["y"];
     CHECK(worst[i]["picture"][0] == theirs.channels.at("R")[static_cast<std::size_t>(y * 40 + x)]);
     CHECK(worst[i]["material"].is_string());
-    CHECK(worst[i]["line"].get<int>() > 0);
+    CHECK(lines(kGoodScene).at(worst[i]["line"].get<std::size_t>() - 1).starts_with("[["));
     if (i == 0) continue;
     CHECK(worst[i]["off"].get<double>() <= worst[i - 1]["off"].get<double>());
     const int dx = x - worst[0]["x"].get<int>(), dy = y - worst[0]["y"].get<int>();
@@ -159,6 +159,25 @@ TEST_CASE("diff with a scene: a colour that no sum of terms gives stays without 
   CHECK(here.run({"diff", "theirs.exr", "good.toml"}).code == 5);
 }
 
+TEST_CASE("diff with a scene: one step of 8 bits is near, and so is what --fail lets pass") {
+  const Workplace here;
+  const auto shift = [&](const std::string& file, const std::string& by) {
+    REQUIRE(here.command({"oiiotool", file, "--addc", by, "-o", file}).code == 0);
+  };
+  render(here, "good.toml", {}, "theirs.png");
+  shift("theirs.png", "0.00392157");
+  Json json = account(here, "good.toml", {}, "theirs.png");
+  CHECK(json["over"] == 40 * 30);
+  CHECK(json["reasons"] ==
+        Json::array({{{"equals", "ours within one 8-bit step"}, {"pixels", json["over"]}}}));
+
+  render(here, "scenes/06-shadows.toml", {"--no-shadows"});
+  shift("theirs.exr", "0.005");
+  json = account(here, "scenes/06-shadows.toml", {"--fail", "0.01"});
+  CHECK(json["over"].get<int>() > 0);
+  CHECK(json["reasons"] == Json::array({{{"equals", "ours without the shadow"}, {"pixels", json["over"]}}}));
+}
+
 TEST_CASE("diff with a scene: 16-bit floats are near, and alpha is left out") {
   const Workplace here;
   render(here, "good.toml", {});
@@ -167,6 +186,11 @@ TEST_CASE("diff with a scene: 16-bit floats are near, and alpha is left out") {
   CHECK(json["over"].get<int>() > 0);
   CHECK(json["reasons"] == Json::array({{{"equals", "ours within 0.001"}, {"pixels", json["over"]}}}));
   CHECK(here.run({"diff", "half.exr", "good.toml", "--fail", "0.001"}).code == 0);
+  // Of bright colours it is the thousandth part.
+  write_bytes(here / "bright.toml", "background = 30.01\n" + kGoodScene);
+  render(here, "bright.toml", {});
+  REQUIRE(here.command({"oiiotool", "theirs.exr", "-d", "half", "-o", "half.exr"}).code == 0);
+  CHECK(account(here, "bright.toml", {}, "half.exr")["without_reason"] == 0);
 
   render(here, "good.toml", {}, "theirs.png");
   REQUIRE(here.command({"oiiotool", "theirs.png", "--ch", "R,G,B,A=1", "-o", "alpha.png"}).code == 0);
