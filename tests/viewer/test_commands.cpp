@@ -117,7 +117,7 @@ TEST_CASE("exit code 2: wrong usage") {
   check_usage(render({"b.toml", "-Z", "c"}), "not expected: b.toml -Z c");
   check_usage(render({"--spp", "5"}), "square");
   check_usage(render({"--spp", "0"}), "square");
-  check_usage(render({"--spp", "8100"}), "4096");
+  check_usage(render({"--spp", "4225"}), "4096");
   check_usage(render({"--spp", "four"}), "--spp");
   check_usage(render({"--isa", "nonsense"}), "avx2");
   check_usage(render({"--depth", "0"}), "--depth");

@@ -2,6 +2,7 @@
 // The flags of the faults on purpose: what they refuse, and that every output says they are on.
 #include <nlohmann/json.hpp>
 
+#include "common/picture/image_io.h"
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
@@ -101,5 +102,6 @@ TEST_CASE("fault flags: the statistics say what is on, and nothing when off") {
   const Arguments render{"render", "good.toml", "-r", "16x12", "-q", "-o", "a.png", "--stats", "-"};
   CHECK(nlohmann::json::parse(here.run(render + Arguments{"--tessellate", "8"}).out)["faults"] ==
         "tessellate 8");
+  CHECK(read_image(here / "a.png").metadata.at("title") == "FAULTS ON PURPOSE (tessellate 8): good.toml");
   CHECK_FALSE(nlohmann::json::parse(here.run(render).out).contains("faults"));
 }

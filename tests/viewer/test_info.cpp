@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What sidelight info says of a scene.
+// What sidelight info says of a scene, and a picture of itself.
+#include "common/picture/image_io.h"
+#include "common/scene/toml.h"
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
@@ -57,4 +59,26 @@ TEST_CASE("info tells what is in the scene, and of many objects and materials ho
         "lights     2, ambient (0.1, 0.2, 0.3)\n", "directional (0, -1, 0), intensity (0.5, 0.25, 1)\n",
         "shadows on, reflection off, refraction on\n"})
     CHECK_MESSAGE(outcome.out.find(line) != std::string::npos, line);
+}
+
+TEST_CASE("a picture tells how it was made") {
+  const Workplace here;
+  write_bytes(here / "scene.toml", "title = 'Half'\n[trace]\ncontribution_cut = 0.0625\n" + kGoodScene);
+  REQUIRE(here.run({"render", "scene.toml", "-r", "20x10", "--spp", "4", "--depth", "3", "--no-reflection",
+                    "-q", "-o", "a.exr"})
+              .code == 0);
+  auto told = read_image(here / "a.exr").metadata;
+  CHECK(told.at("program").starts_with("sidelight "));
+  CHECK(told.at("scene_hash") == load_scene(here / "scene.toml").hash);
+  for (const char* name : {"program", "scene_hash"}) told.erase(name);
+  CHECK(told == std::map<std::string, std::string>{{"renderer", "raytrace"},
+                                                   {"scene", "scene.toml"},
+                                                   {"title", "Half"},
+                                                   {"size", "20x10"},
+                                                   {"samples_per_pixel", "4"},
+                                                   {"depth", "3"},
+                                                   {"contribution_cut", "0.0625"},
+                                                   {"shadows", "on"},
+                                                   {"reflection", "off"},
+                                                   {"refraction", "on"}});
 }
