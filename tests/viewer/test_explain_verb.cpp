@@ -76,7 +76,7 @@ TEST_CASE("explain: fragments that were kept, and what a ray is multiplied by") 
   CHECK(color(sample.at("raytrace").at("children").at(0).at("coefficient")) == glm::vec3(0.9f));
 }
 
-TEST_CASE("explain: pixels and samples that are none are wrong usage") {
+TEST_CASE("explain: pixels, samples and settings that are none are wrong usage") {
   const Workplace here;
   for (const char* pixel : {"64,0", "0,48", "-1,0", "1", "1,2,3", "a,b", "", "1, 2", "99999999999,0"}) {
     CAPTURE(pixel);
@@ -90,6 +90,10 @@ TEST_CASE("explain: pixels and samples that are none are wrong usage") {
   CHECK(sample.code == 2);
   CHECK(sample.err.find("--sample wants two numbers i,j from 0,0 to 2,2") != std::string::npos);
   CHECK(here.run({"explain", "good.toml", "--pixel", "1,2", "--sample", "0,1"}).code == 2);
+  for (const char* set : {"=2", "trace.depth", ""}) {
+    CAPTURE(set);
+    CHECK(here.run({"explain", "good.toml", "--pixel", "1,2", "--set", set}).code == 2);
+  }
 }
 
 TEST_CASE("explain: the line to copy can be typed, whatever the scene is called") {
