@@ -3,7 +3,12 @@
 #include "viewer/report/compare_report.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+
+#include "common/picture/signed_difference.h"
 #include "tests/picture/frames.h"
 #include "tests/support/text.h"
 #include "viewer/report/embedded_picture.h"
@@ -12,11 +17,13 @@
 using namespace sidelight;
 using namespace sidelight::test;
 
-TEST_CASE("compare report: every sum stands at its step, and every pixel where it is") {
+TEST_CASE("compare report: every picture and number is the one that it is said to be") {
   Pair pair = equal_pair(8, 6);
-  pair.traced.layer(Layer::shadow)[3] = glm::vec3(0.25f);
-  pair.traced.layer(Layer::reflection)[4] = glm::vec3(0.125f);
-  pair.traced.layer(Layer::refraction)[2 * 8 + 5] = {0, 0.375f, 0};
+  for (const Layer layer : {Layer::ambient, Layer::diffuse, Layer::specular})
+    pair.rastered.layer(layer)[static_cast<std::size_t>(layer)] = glm::vec3(0.5f);
+  for (const std::size_t i : {3, 4}) pair.traced.layer(Layer::shadow)[i] = glm::vec3(0.25f);
+  pair.traced.layer(Layer::reflection)[5] = glm::vec3(0.125f);
+  for (const std::size_t i : {19, 20, 21}) pair.traced.layer(Layer::refraction)[i] = {0, 0.375f, 0};
   const auto sums = ledger_sums(pair.rastered, pair.traced);
   pair.traced.color = sums[3];
   Comparison result = compare(pair.rastered, pair.traced, 1);
@@ -26,21 +33,54 @@ TEST_CASE("compare report: every sum stands at its step, and every pixel where i
   result.unexplained = 2;
   result.unexplained_x = 6;
   result.unexplained_y = 4;
+  result.ledger_max_residual = 0.25;
+  result.metrics.mean = 0.5;
+  result.metrics.rms = 0.75;
   const Scene scene;
-  const std::string page =
-      compare_report({scene, pair.rastered, pair.traced, result, {}, "explain", "view", {}, {}, {}});
+  const std::string page = compare_report({scene,
+                                           pair.rastered,
+                                           pair.traced,
+                                           result,
+                                           {},
+                                           "explain",
+                                           "view",
+                                           Times{1.5, 2.5},
+                                           Times{3.5, 4.5},
+                                           {}});
   CHECK(contains(page,
                  "3 visibility mismatches, 2 unexplained pixels. First mismatch at pixel 3,1. "
                  "First unexplained pixel at 6,4."));
-  CHECK(contains(page, "0.375 (green at 5,2)"));
-  CHECK(contains(page, "differ most at pixel 5,2"));
+  CHECK(contains(page, "0.375 (green at 3,2)"));
+  CHECK(contains(page, "differ most at pixel 3,2"));
+  for (const char* row :
+       {"ledger</th><td>0.25</td>", "mean difference</th><td>0.5</td>", "square</th><td>0.75</td>",
+        "z-buffer</th><td>1.5 ms</td><td>2.5 ms</td>", "ray tracer</th><td>3.5 ms</td><td>4.5 ms</td>"})
+    CHECK_MESSAGE(contains(page, row), row);
+  const std::array causes{result.shadow, result.reflection, result.refraction};
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    const auto code = [&](int c) { return encode_srgb8(kCauseHues[k][c]); };
+    CHECK(contains(page, fmt::format("background:#{:02x}{:02x}{:02x}\"></span>{}</th><td>{}</td>", code(0),
+                                     code(1), code(2), kCauseNames[k], causes[k].pixels)));
+  }
+
   // Enlarged to the page's 480 pixels.
+  const auto shows = [&](std::span<const glm::vec3> picture, const std::string& alt) {
+    CHECK_MESSAGE(contains(page, base64(encode_png(embedded_picture(picture, pair.traced))) +
+                                     R"(" width="480" height="360" alt=")" + escaped(alt).markup +
+                                     "\" class=\"enlarged\""),
+                  alt);
+  };
   constexpr std::array<const char*, 4> kSums{"R, the z-buffer's picture", "The sum R − S",
                                              "The sum R − S + M", "The sum R − S + M + G"};
-  for (std::size_t k = 0; k < kSums.size(); ++k) {
-    CAPTURE(k);
-    CHECK(contains(page, base64(encode_png(embedded_picture(sums[k], pair.traced))) +
-                             R"(" width="480" height="360" alt=")" + escaped(kSums[k]).markup +
-                             "\" class=\"enlarged\""));
-  }
+  for (std::size_t k = 0; k < kSums.size(); ++k) shows(sums[k], kSums[k]);
+  for (const Layer layer : {Layer::ambient, Layer::diffuse, Layer::specular})
+    shows(pair.rastered.layer(layer),
+          "The " + std::string(kLayerNames[static_cast<std::size_t>(layer)]) + " part of R");
+  for (std::size_t k = 0; k < kCauseLayers.size(); ++k)
+    shows(pair.traced.layer(kCauseLayers[k]), "The " + std::string(kCauseNames[k]) + " term alone");
+  shows(signed_difference(pair.rastered, pair.traced), "The signed difference of the two pictures");
+  // A quarter stands half way.
+  std::vector<glm::vec3> scale;
+  for (int i = -256; i <= 256; ++i) scale.push_back(signed_difference_color(i / 256.0 * std::abs(i / 256.0)));
+  CHECK(contains(page, base64(encode_png(to_image8(scale, 513, 1)))));
 }
