@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // "Is my renderer right?": diff with a picture and a scene. Our own picture passes; one that lacks a term fails
 // and the term is named, pixel by pixel, with a command that shows it.
+#include <fmt/format.h>
+
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -84,23 +86,60 @@ TEST_CASE("diff with a scene: only shadows are missing in a scene of shadows, an
 
 TEST_CASE("diff with a scene: the worst pixels stand apart, with both colours and the object") {
   const Workplace here;
-  render(here, "good.toml", {"--no-shadows"});
-  const Json json = account(here, "good.toml");
+  // Behind the triangles of a box no object has the number of its primitive.
+  const std::string scene = "[[mesh]]\nshape = 'box'\nsize = [1, 1, 1]\nmaterial = 'red'\n" + kGoodScene;
+  write_bytes(here / "box.toml", scene);
+  render(here, "box.toml", {"--no-shadows"});
+  render(here, "box.toml", {"--layers", "all"}, "ours.exr");
+  const Json json = account(here, "box.toml");
   const Json& worst = json["worst"];
   REQUIRE(worst.size() == 5);
   CHECK(worst[0]["off"] == json["metrics"]["max"]["value"]);
   CHECK(worst[0]["x"] == json["metrics"]["max"]["x"]);
   CHECK(worst[0]["y"] == json["metrics"]["max"]["y"]);
-  const ImageFile theirs = read_image(here / "theirs.exr");
+  const ImageFile theirs = read_image(here / "theirs.exr"), ours = read_image(here / "ours.exr");
   for (std::size_t i = 0; i < worst.size(); ++i) {
     const int x = worst[i]["x"], y = worst[i]["y"];
-    CHECK(worst[i]["picture"][0] == theirs.channels.at("R")[static_cast<std::size_t>(y * 40 + x)]);
+    const auto at = static_cast<std::size_t>(y * 40 + x);
+    CHECK(worst[i]["picture"][0] == theirs.channels.at("R")[at]);
+    CHECK(worst[i]["object"] == ours.ids.at("object.id")[at] - 1);
+    CHECK(worst[i]["primitive"] == ours.ids.at("primitive.id")[at] - 1);
+    for (const std::string term : {"shadow", "reflection", "refraction"})
+      CHECK(worst[i][term][0] == ours.channels.at(term + ".R")[at]);
     CHECK(worst[i]["material"].is_string());
-    CHECK(lines(kGoodScene).at(worst[i]["line"].get<std::size_t>() - 1).starts_with("[["));
+    CHECK(lines(scene).at(worst[i]["line"].get<std::size_t>() - 1).starts_with("[["));
     if (i == 0) continue;
     CHECK(worst[i]["off"].get<double>() <= worst[i - 1]["off"].get<double>());
     const int dx = x - worst[0]["x"].get<int>(), dy = y - worst[0]["y"].get<int>();
     CHECK(std::max(std::abs(dx), std::abs(dy)) >= 2);
+  }
+}
+
+TEST_CASE("diff with a scene: says in words what it says to programs") {
+  const Workplace here;
+  render(here, "good.toml", {"--no-shadows", "--no-refraction"});
+  const Outcome outcome = here.run({"diff", "theirs.exr", "good.toml", "--json", "a.json"});
+  CAPTURE(outcome.err);
+  const Json json = Json::parse(read_bytes(here / "a.json"));
+  const auto said = [&](const std::string& words) { return outcome.err.find(words) != std::string::npos; };
+  const double one = json["rms"]["raster"], other = json["rms"]["raytrace"];
+  CHECK(said(fmt::format("(rms {:.3g}; the other {:.3g})\n", std::min(one, other), std::max(one, other))));
+  REQUIRE(json["reasons"].size() > 1);
+  for (const Json& reason : json["reasons"])
+    CHECK(said(fmt::format("\n  {} pixels equal {}\n", reason["pixels"].get<int>(),
+                           reason["equals"].get<std::string>())));
+  REQUIRE(json["without_reason"] > 0);
+  CHECK(said(fmt::format("\n  {} pixels equal no sum", json["without_reason"].get<int>())));
+  const auto triple = [](const Json& v) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", v[0].get<float>(), v[1].get<float>(), v[2].get<float>());
+  };
+  for (const Json& worst : json["worst"]) {
+    const Json& equals = worst["equals"];
+    CHECK(said(fmt::format("\n  {},{}: theirs {}, ours {}{}\n", worst["x"].get<int>(), worst["y"].get<int>(),
+                           triple(worst["picture"]), triple(worst["ours"]),
+                           equals.is_null() ? "" : "; theirs equals " + equals.get<std::string>())));
+    for (const std::string term : {"shadow", "reflection", "refraction"})
+      CHECK((worst[term] == Json{0, 0, 0} || said(term + " " + triple(worst[term]))));
   }
 }
 
