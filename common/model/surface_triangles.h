@@ -3,7 +3,6 @@
 // across runs; then the samples, in lanes across samples.
 #pragma once
 
-#include <algorithm>
 #include <limits>
 
 #include "common/model/surface_lanes.h"

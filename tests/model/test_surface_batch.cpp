@@ -18,7 +18,8 @@ using namespace sidelight::test;
 
 namespace {
 
-// Corners and, of every second one, normals, the same at all corners of half of these; slivers, triangles seen edge-on by an eye at the origin, tiny ones.
+// Corners and, of every second one, normals, the same at all corners of half of these; slivers, triangles seen edge-on by
+// an eye at the origin, tiny ones.
 void add_triangles(Scene& scene, Random& random, std::uint32_t material) {
   PolygonMesh mesh;
   for (std::uint32_t i = 0; i < 60; ++i) {

@@ -21,8 +21,8 @@ TEST_CASE("camera moves: distances stay, poles are not passed, points project on
   CHECK(moved.eye.y - moved.look_at.y < distance);
   CHECK(moved.eye.y - moved.look_at.y > 0.99 * distance);
   const double aside = std::hypot(moved.eye.x - moved.look_at.x, moved.eye.z - moved.look_at.z);
-  CHECK(aside ==
-        doctest::Approx(std::sin(0.02) * distance));  // nearer to the pole, the picture would roll at a touch
+  // Nearer to the pole, the picture would roll at a touch.
+  CHECK(aside == doctest::Approx(std::sin(0.02) * distance));
   const CameraSettings back = orbit(orbit(camera, 0.3, 0), -0.3, 0);
   CHECK(glm::distance(back.eye, camera.eye) < 1e-12 * distance);
   CHECK(orbit(camera, 0.1, 0).eye.x > camera.eye.x);  // to the right
