@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <span>
+#include <numeric>
 
 #include "common/math/norms.h"
 
@@ -49,18 +49,9 @@ bool any_solids_meet(const Scene& scene) {
   std::vector<Bounds> solids;
   for (const Object& object : scene.objects)
     if (object.solid) solids.push_back(bounds_of(scene, object));
-  const int axis = axis_of_rows(solids);
-  std::sort(solids.begin(), solids.end(),
-            [axis](const Bounds& a, const Bounds& b) { return a.low[axis] < b.low[axis]; });
-  // Sweep: those that are open when one begins are all it can meet.
-  std::vector<const Bounds*> open;
-  for (const Bounds& solid : solids) {
-    std::erase_if(open, [&](const Bounds* other) { return other->high[axis] < solid.low[axis]; });
-    if (std::any_of(open.begin(), open.end(), [&](const Bounds* other) { return other->meets(solid); }))
-      return true;
-    open.push_back(&solid);
-  }
-  return false;
+  bool any = false;
+  visit_meeting(solids, [&](std::size_t, std::size_t) { return !(any = true); });
+  return any;
 }
 
 }  // namespace
@@ -84,6 +75,21 @@ Bounds bounds_of(const Scene& scene, const Object& object) {
       bounds.high = glm::max(bounds.high, scene.positions[v]);
     }
   return padded(bounds);
+}
+
+// Sweep: those that are open when one begins are all it can meet.
+void visit_meeting(std::span<const Bounds> bounds,
+                   const std::function<bool(std::size_t, std::size_t)>& visit) {
+  const int axis = axis_of_rows(bounds);
+  std::vector<std::size_t> by_begin(bounds.size()), open;
+  std::iota(by_begin.begin(), by_begin.end(), std::size_t{0});
+  std::ranges::sort(by_begin, {}, [&](std::size_t i) { return bounds[i].low[axis]; });
+  for (const std::size_t now : by_begin) {
+    std::erase_if(open, [&](std::size_t other) { return bounds[other].high[axis] < bounds[now].low[axis]; });
+    for (const std::size_t other : open)
+      if (bounds[other].meets(bounds[now]) && !visit(other, now)) return;
+    open.push_back(now);
+  }
 }
 
 Needs needs_of(const Scene& scene) {

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -53,5 +55,9 @@ struct Bounds {
   bool meets(const Bounds& other) const;
 };
 Bounds bounds_of(const Scene& scene, const Object& object);
+
+// Each pair of these that meet, once, by their numbers, in any order; until `visit` returns false.
+void visit_meeting(std::span<const Bounds> bounds,
+                   const std::function<bool(std::size_t, std::size_t)>& visit);
 
 }  // namespace sidelight

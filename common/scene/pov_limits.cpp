@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <map>
 #include <span>
 
 #include "common/scene/needs.h"
@@ -18,18 +20,12 @@ namespace {
 using glm::dot;
 using glm::dvec3;
 
-struct Solid {
-  std::uint32_t object;
-  Bounds box;
-};
-
 enum class Relation { apart, inside, unclear };
 
-// Where a solid that comes later in the file lies to one that comes before it, as far as boxes tell. POV-Ray and we
-// agree on the medium where the later one is apart from the other, or wholly inside it.
-Relation relation(const Scene& scene, const Solid& later_solid, const Solid& before_solid) {
-  const Object &later = scene.objects[later_solid.object], &before = scene.objects[before_solid.object];
-  const Bounds &box = later_solid.box, &other = before_solid.box;
+// Where a solid that comes later in the file lies to one that comes before it, as far as their boxes, which meet, tell.
+// POV-Ray and we agree on the medium where the later one is apart from the other, or wholly inside it.
+Relation relation(const Scene& scene, const Object& later, const Bounds& box, const Object& before,
+                  const Bounds& other) {
   const auto side_of = [&](const Object& plane_object, const Bounds& of) {
     const Plane& plane = scene.planes[plane_object.first];
     // The corners of the box that are farthest along the normal and against it.
@@ -42,7 +38,6 @@ Relation relation(const Scene& scene, const Solid& later_solid, const Solid& bef
   if (later_plane && before_plane) return Relation::unclear;
   if (before_plane) return side_of(before, box);
   if (later_plane) return side_of(later, other) == Relation::apart ? Relation::apart : Relation::unclear;
-  if (!box.meets(other)) return Relation::apart;
   if (before.kind != ObjectKind::sphere) return Relation::unclear;
   const Sphere& around = scene.spheres[before.first];
   const double reach =
@@ -101,34 +96,45 @@ void add_normal_limits(const Scene& scene, std::vector<PovLimit>& out) {
   }
 }
 
-void add_pair_limits(const Scene& scene, const std::vector<Solid>& solids, std::vector<PovLimit>& out) {
-  constexpr int kNamed = 20;
-  int pairs = 0;
-  for (std::size_t later = 0; later < solids.size(); ++later)
-    for (std::size_t before = 0; before < later; ++before) {
-      const std::uint32_t a = solids[before].object, b = solids[later].object;
-      const Relation lies = relation(scene, solids[later], solids[before]);
-      const Material& material = scene.materials[primitive_material(scene, scene.objects[b].first_primitive)];
-      const bool inside = lies == Relation::inside && scene.objects[b].ior < scene.objects[a].ior &&
-                          material.reflect + material.refract != dvec3(1);
-      if ((lies != Relation::unclear && !inside) || ++pairs > kNamed) continue;
-      if (inside)
-        out.push_back({fmt::format("{} in {}: POV-Ray gives total reflection at its outside the weight 1",
-                                   name_of(scene, b), name_of(scene, a)),
-                       {b}});
-      else
-        out.push_back(
-            {fmt::format("{} and {}: where they touch or overlap, POV-Ray takes the one entered last for "
-                         "the medium, and shades surfaces at which it does not change",
-                         name_of(scene, a), name_of(scene, b)),
-             {a, b}});
-    }
+PovLimit pair_limit(const Scene& scene, Relation lies, std::uint32_t later, std::uint32_t before) {
+  if (lies == Relation::inside)
+    return {fmt::format("{} in {}: POV-Ray gives total reflection at its outside the weight 1",
+                        name_of(scene, later), name_of(scene, before)),
+            {later}};
+  return {fmt::format("{} and {}: where they touch or overlap, POV-Ray takes the one entered last for "
+                      "the medium, and shades surfaces at which it does not change",
+                      name_of(scene, before), name_of(scene, later)),
+          {before, later}};
+}
+
+void add_pair_limits(const Scene& scene, const std::vector<std::uint32_t>& solids,
+                     std::vector<PovLimit>& out) {
+  constexpr std::size_t kNamed = 20;
+  std::vector<Bounds> boxes;
+  for (const std::uint32_t solid : solids) boxes.push_back(bounds_of(scene, scene.objects[solid]));
+  std::map<std::array<std::size_t, 2>, Relation>
+      named;  // of the later one and the one before it, the first in the file
+  std::size_t pairs = 0;
+  visit_meeting(boxes, [&](std::size_t i, std::size_t j) {
+    const auto [b, a] = std::minmax(i, j);
+    const Object &later = scene.objects[solids[a]], &before = scene.objects[solids[b]];
+    const Relation lies = relation(scene, later, boxes[a], before, boxes[b]);
+    const Material& material = scene.materials[primitive_material(scene, later.first_primitive)];
+    const bool mirrors_all = later.ior < before.ior && material.reflect + material.refract != dvec3(1);
+    if (lies == Relation::apart || (lies == Relation::inside && !mirrors_all)) return true;
+    ++pairs;
+    named[{a, b}] = lies;
+    if (named.size() > kNamed) named.erase(std::prev(named.end()));
+    return true;
+  });
+  for (const auto& [pair, lies] : named)
+    out.push_back(pair_limit(scene, lies, solids[pair[0]], solids[pair[1]]));
   if (pairs > kNamed) out.push_back({fmt::format("and {} more pairs of solids", pairs - kNamed), {}});
 }
 
 void add_object_limits(const Scene& scene, std::vector<PovLimit>& out) {
   if (!scene.trace.refraction) return;
-  std::vector<Solid> solids;
+  std::vector<std::uint32_t> solids;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     bool refracts = false, mixed = false;
@@ -137,7 +143,7 @@ void add_object_limits(const Scene& scene, std::vector<PovLimit>& out) {
       mixed = mixed || material != primitive_material(scene, object.first_primitive);
       refracts = refracts || scene.materials[material].refract != dvec3(0);
     }
-    if (object.solid) solids.push_back({i, bounds_of(scene, object)});
+    if (object.solid) solids.push_back(i);
     if (refracts && !object.solid)
       out.push_back({name_of(scene, i) + ": POV-Ray takes it for the surface of a medium of index 1", {i}});
     if (object.solid && mixed)

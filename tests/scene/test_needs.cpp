@@ -4,6 +4,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <limits>
+
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 using namespace sidelight;
@@ -86,6 +90,34 @@ TEST_CASE("needs: bounds meet where they touch") {
   const Bounds first{glm::dvec3(0), glm::dvec3(1)}, second{glm::dvec3(1, 0, 0), glm::dvec3(2)};
   CHECK(first.meets(second));
   CHECK(second.meets(first));
+}
+
+TEST_CASE("needs: pairs of bounds that meet are those that two loops find, each once") {
+  Random random(31);
+  std::vector<Bounds> bounds;
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 low = random.on_grid(20), size = glm::abs(random.on_grid(4));
+    bounds.push_back({low, low + size});
+  }
+  const double all = std::numeric_limits<double>::infinity();
+  bounds[100] = {glm::dvec3(-all), {all, 0, all}};
+  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+  Pairs expected, found;
+  for (std::size_t i = 0; i < bounds.size(); ++i)
+    for (std::size_t j = i + 1; j < bounds.size(); ++j)
+      if (bounds[i].meets(bounds[j])) expected.emplace_back(i, j);
+  const auto visit = [&](std::size_t i, std::size_t j) {
+    found.emplace_back(std::min(i, j), std::max(i, j));
+    return true;
+  };
+  visit_meeting(bounds, visit);
+  std::ranges::sort(found);
+  CHECK(found.size() > 200);
+  CHECK(found == expected);
+
+  int visits = 0;
+  visit_meeting(bounds, [&](std::size_t, std::size_t) { return ++visits < 3; });
+  CHECK(visits == 3);
 }
 
 TEST_CASE("needs: a long row of balls along any axis, which do not meet but for the last") {

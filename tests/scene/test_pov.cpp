@@ -155,6 +155,9 @@ TEST_CASE("solids: apart or nested they agree, touching or overlapping they do n
   CHECK(names(pair(water, ball("glass", "[0, 0.5, 0]", 1)), "touch or overlap"));
   CHECK(pair(ball("glass", "[0, 2, 0]", 1), water).empty());
   CHECK(names(pair(ball("glass", "[0, -2, 0]", 1), water), "touch or overlap"));
+  const std::string above = "[[plane]]\npoint = [0, 5, 0]\nnormal = [0, -1, 0]\nmaterial = 'glass'\n";
+  CHECK(pair(water, above).empty());
+  CHECK(names(pair(water, water), "touch or overlap"));
 }
 
 TEST_CASE("many overlapping solids do not make a wall of text") {
@@ -162,6 +165,10 @@ TEST_CASE("many overlapping solids do not make a wall of text") {
   for (int i = 0; i < 60; ++i) toml += ball("glass", "[0, 0, 0]", 1);
   const std::vector<std::string> all = limits(with(toml));
   CHECK(all.size() == 21);
+  CHECK(all.front().starts_with("object 1 "));
+  CHECK(names({all.front()}, "and object 2 "));
+  CHECK(names({all[19]}, "and object 7 "));  // of 7 there are 21 pairs
+  CHECK(names({all[19]}, "object 5 "));
   CHECK(all.back() == "and 1750 more pairs of solids");
 }
 
