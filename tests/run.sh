@@ -17,7 +17,7 @@ The last line reads "N passed, N failed" (and ", N skipped" if any). Exit code 0
 END
 }
 
-root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
+root="$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)"
 jobs="$(nproc)"
 tier=default
 presets=()

@@ -19,7 +19,7 @@ Renders one scene twice, with a z-buffer and with a ray tracer, and accounts for
 END
 }
 
-root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
+root="$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)"
 scene="$root/scenes/showcase.toml"
 out=""
 while (($#)); do
@@ -51,5 +51,5 @@ if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
   echo "Opening the window: space flips the two pictures, Esc closes."
   "$sidelight" view "$scene"
 else
-  echo "No display, so no window; where there is one: $sidelight view $scene"
+  printf 'No display, so no window; where there is one: %q view %q\n' "$sidelight" "$scene"
 fi
