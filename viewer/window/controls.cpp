@@ -140,9 +140,8 @@ void draw_controls(const Canvas& canvas, const WindowContents& contents, const R
   heading(canvas, "Faults on purpose");
   draw_faults(state, out);
   ImGui::Spacing();
-  for (const auto& [label, action] :
-       {std::pair("z reset", Action::reset), std::pair("s save", Action::save)}) {
-    if (ImGui::Button(label)) out.push_back([action = action](Session& session) { session.act(action, {}); });
+  for (const char* label : {"z reset", "s save"}) {
+    key_button(label, out);
     ImGui::SameLine();
   }
   ImGui::PopItemWidth();

@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "viewer/window/canvas.h"
+#include "viewer/window/keys.h"
 #include "viewer/window/paint.h"
 #include "viewer/window/window_panels.h"
 
@@ -38,62 +39,28 @@ std::string cursor_text(const WindowContents& contents) {
   return out + fmt::format("   pixel {},{}", pixel.x, pixel.y);
 }
 
-struct LabelledAction {
+// Each presses the key that its label begins with.
+struct Button {
   const char* label;
-  Action action;
+  bool (*is_on)(const WindowState& state);
 };
-constexpr std::array<LabelledAction, 12> kButtons{{{"1 both", Action::side_by_side},
-                                                   {"2 swipe", Action::swipe},
-                                                   {"3 flip", Action::flip},
-                                                   {"4 difference", Action::difference},
-                                                   {"5 causes", Action::causes},
-                                                   {"6 ledger", Action::ledger},
-                                                   {"7 layer", Action::next_layer},
-                                                   {"9 one", Action::next_alone},
-                                                   {"o slow", Action::slow_motion},
-                                                   {"c controls", Action::controls},
-                                                   {"n lesson", Action::next_step},
-                                                   {"h help", Action::help}}};
+constexpr auto kButtons = std::to_array<Button>({
+    {"1 both", [](const WindowState& s) { return s.mode == Mode::side_by_side; }},
+    {"2 swipe", [](const WindowState& s) { return s.mode == Mode::swipe; }},
+    {"3 flip", [](const WindowState& s) { return s.mode == Mode::flip; }},
+    {"4 difference", [](const WindowState& s) { return s.mode == Mode::difference; }},
+    {"5 causes", [](const WindowState& s) { return s.mode == Mode::causes; }},
+    {"6 ledger", [](const WindowState& s) { return s.mode == Mode::ledger; }},
+    {"7 layer", [](const WindowState& s) { return layer_of(s.mode).has_value(); }},
+    {"9 one", [](const WindowState& s) { return s.mode == Mode::raster || s.mode == Mode::raytrace; }},
+    {"o slow", [](const WindowState& s) { return s.slow; }},
+    {"c controls", [](const WindowState& s) { return s.controls; }},
+    {"n lesson", [](const WindowState&) { return false; }},
+    {"h help", [](const WindowState&) { return false; }},
+});
 
-bool is_there(const WindowState& state, Action action) {
-  return action != Action::next_step || !state.opened.scene.steps.empty();
-}
-
-bool is_on(const WindowState& state, Action action) {
-  switch (action) {
-    case Action::side_by_side:
-      return state.mode == Mode::side_by_side;
-    case Action::swipe:
-      return state.mode == Mode::swipe;
-    case Action::flip:
-      return state.mode == Mode::flip;
-    case Action::difference:
-      return state.mode == Mode::difference;
-    case Action::causes:
-      return state.mode == Mode::causes;
-    case Action::ledger:
-      return state.mode == Mode::ledger;
-    case Action::next_layer:
-      return layer_of(state.mode).has_value();
-    case Action::next_alone:
-      return state.mode == Mode::raster || state.mode == Mode::raytrace;
-    case Action::controls:
-      return state.controls;
-    case Action::lesson:
-      return state.lesson;
-    case Action::slow_motion:
-      return state.slow;
-    default:
-      return false;
-  }
-}
-
-void button(const WindowState& state, const LabelledAction& each, std::vector<Command>& out) {
-  const bool on = is_on(state, each.action);
-  if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.26f, 0.47f, 0.72f, 1));
-  if (ImGui::Button(each.label))
-    out.push_back([action = each.action](Session& session) { session.act(action, {}); });
-  if (on) ImGui::PopStyleColor();
+bool is_there(const WindowState& state, const Button& button) {
+  return button.label[0] != 'n' || !state.opened.scene.steps.empty();
 }
 
 // What the lesson's panel says: the step, or else what the scene is about.
@@ -109,8 +76,8 @@ std::string lesson_text(const WindowState& state) {
 int button_rows(const WindowState& state, int width, double scale) {
   constexpr double kAround = 2 * 9;  // FramePadding of canvas.cpp
   std::vector<double> widths;
-  for (const LabelledAction& each : kButtons)
-    if (is_there(state, each.action))
+  for (const Button& each : kButtons)
+    if (is_there(state, each))
       widths.push_back(kAround * scale +
                        text_width_bound(std::string_view(each.label).size(), kSmallText * scale));
   return flow_rows(widths, 8 * scale, width);
@@ -125,10 +92,13 @@ void draw_buttons(const Canvas& canvas, const WindowContents& contents, const Re
     const DockWindow window("##buttons", box);
     const auto width = static_cast<float>(box.width());
     const float padding = 2 * ImGui::GetStyle().FramePadding.x;
-    for (const LabelledAction& each : kButtons) {
-      if (!is_there(contents.state, each.action)) continue;
+    for (const Button& each : kButtons) {
+      if (!is_there(contents.state, each)) continue;
       if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(each.label).x + padding > width) ImGui::NewLine();
-      button(contents.state, each, out);
+      const bool on = each.is_on(contents.state);
+      if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.26f, 0.47f, 0.72f, 1));
+      key_button(each.label, out);
+      if (on) ImGui::PopStyleColor();
       ImGui::SameLine();
     }
     const std::string where = cursor_text(contents);

@@ -142,8 +142,7 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
   column(canvas, contents.state, KeyTarget::fragments, side, heading, left);
   if (plotted) {
     ImGui::SetCursorScreenPos({top.x + side + gap, top.y});
-    if (ImGui::Button("y copy as command"))
-      out.push_back([](Session& session) { session.act(Action::copy_command, {}); });
+    key_button("y copy as command", out);
     const int x = static_cast<int>(top.x + side + gap);
     if (const std::optional<Lobe> lobe = specular_lobe(inspection))
       draw_lobe(

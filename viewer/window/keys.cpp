@@ -1,72 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/window/keys.h"
 
-#include <algorithm>
 #include <array>
+
+#include "viewer/window/session.h"
 
 namespace sidelight {
 namespace {
 
-constexpr auto kBindings = std::to_array<KeyBinding>({
-    {"1", Action::side_by_side},
-    {"2", Action::swipe},
-    {"3", Action::flip},
-    {"4", Action::difference},
-    {"5", Action::causes},
-    {"6", Action::ledger},
-    {"7", Action::next_layer},
-    {"&", Action::previous_layer},
-    {"8", Action::previous_layer},
-    {"9", Action::next_alone},
-    {"Space", Action::swap},
-    {"<", Action::swipe_left},
-    {">", Action::swipe_right},
-    {"Left", Action::orbit_left},
-    {"Right", Action::orbit_right},
-    {"Up", Action::orbit_up},
-    {"Down", Action::orbit_down},
-    {"Shift+Left", Action::slide_left},
-    {"Shift+Right", Action::slide_right},
-    {"Shift+Up", Action::slide_up},
-    {"Shift+Down", Action::slide_down},
-    {".", Action::nearer},
-    {",", Action::farther},
-    {"+", Action::zoom_in},
-    {"=", Action::zoom_in},
-    {"-", Action::zoom_out},
-    {"0", Action::whole_picture},
-    {"Home", Action::whole_picture},
-    {"i", Action::inspect},
-    {"n", Action::next_step},
-    {"PageDown", Action::next_step},
-    {"p", Action::previous_step},
-    {"PageUp", Action::previous_step},
-    {"]", Action::next_scene},
-    {"[", Action::previous_scene},
-    {"o", Action::slow_motion},
-    {"k", Action::more},
-    {"j", Action::fewer},
-    {"d", Action::deeper},
-    {"D", Action::shallower},
-    {"f", Action::shadows},
-    {"g", Action::reflection},
-    {"r", Action::refraction},
-    {"a", Action::more_samples},
-    {"A", Action::fewer_samples},
-    {"y", Action::copy_command},
-    {"s", Action::save},
-    {"z", Action::reset},
-    {"c", Action::controls},
-    {"Tab", Action::next_panel},
-    {"l", Action::lesson},
-    {"t", Action::text_size},
-    {"h", Action::help},
-    {"?", Action::help},
-    {"F1", Action::help},
-    {"Esc", Action::escape},
-    {"q", Action::close},
-    {"Q", Action::close},
-});
+constexpr double kTurn = 0.06, kSlide = 0.05;  // a key press: radians, picture heights
+constexpr double kSwipeStep = 0.05;
+
+void toggle(bool& value) { value = !value; }
 
 constexpr auto kLooking = std::to_array<KeyHelp>({
     {"1", "side by side"},
@@ -112,13 +57,68 @@ constexpr std::array<KeyGroup, 3> kGroups{
 
 }  // namespace
 
-std::span<const KeyBinding> key_bindings() { return kBindings; }
-
-std::optional<Action> action_of(std::string_view key) {
-  const auto at =
-      std::find_if(kBindings.begin(), kBindings.end(), [&](const KeyBinding& b) { return b.key == key; });
-  if (at == kBindings.end()) return {};
-  return at->action;
+std::span<const Session::Key> Session::keys() {
+  static constexpr auto kKeys = std::to_array<Key>({
+      {"1", [](Session& s, const Rect&) { s.set_mode(Mode::side_by_side); }},
+      {"2", [](Session& s, const Rect&) { s.set_mode(Mode::swipe); }},
+      {"3", [](Session& s, const Rect&) { s.set_mode(Mode::flip); }},
+      {"4", [](Session& s, const Rect&) { s.set_mode(Mode::difference); }},
+      {"5", [](Session& s, const Rect&) { s.set_mode(Mode::causes); }},
+      {"6", [](Session& s, const Rect&) { s.set_mode(Mode::ledger); }},
+      {"7", [](Session& s, const Rect&) { s.choose_layer(1); }},
+      {"&", [](Session& s, const Rect&) { s.choose_layer(-1); }},
+      {"8", [](Session& s, const Rect&) { s.choose_layer(-1); }},
+      {"9", [](Session& s, const Rect&) { s.choose_alone(); }},
+      {"Space", [](Session& s, const Rect&) { s.swap_or_advance(); }},
+      {"<", [](Session& s, const Rect&) { s.set_swipe(s.state_.swipe - kSwipeStep); }},
+      {">", [](Session& s, const Rect&) { s.set_swipe(s.state_.swipe + kSwipeStep); }},
+      {"Left", [](Session& s, const Rect&) { s.turn(-kTurn, 0); }},
+      {"Right", [](Session& s, const Rect&) { s.turn(kTurn, 0); }},
+      {"Up", [](Session& s, const Rect&) { s.turn(0, kTurn); }},
+      {"Down", [](Session& s, const Rect&) { s.turn(0, -kTurn); }},
+      {"Shift+Left", [](Session& s, const Rect&) { s.shift(-kSlide, 0); }},
+      {"Shift+Right", [](Session& s, const Rect&) { s.shift(kSlide, 0); }},
+      {"Shift+Up", [](Session& s, const Rect&) { s.shift(0, kSlide); }},
+      {"Shift+Down", [](Session& s, const Rect&) { s.shift(0, -kSlide); }},
+      {".", [](Session& s, const Rect&) { s.dolly_by(1); }},
+      {",", [](Session& s, const Rect&) { s.dolly_by(-1); }},
+      {"+", [](Session& s, const Rect& panel) { s.zoom(1, panel); }},
+      {"=", [](Session& s, const Rect& panel) { s.zoom(1, panel); }},
+      {"-", [](Session& s, const Rect& panel) { s.zoom(-1, panel); }},
+      {"0", [](Session& s, const Rect& panel) { s.show_whole(panel); }},
+      {"Home", [](Session& s, const Rect& panel) { s.show_whole(panel); }},
+      {"i", [](Session& s, const Rect&) { s.inspect_cursor(); }},
+      {"n", [](Session& s, const Rect&) { s.next_step(); }},
+      {"PageDown", [](Session& s, const Rect&) { s.next_step(); }},
+      {"p", [](Session& s, const Rect&) { s.previous_step(); }},
+      {"PageUp", [](Session& s, const Rect&) { s.previous_step(); }},
+      {"]", [](Session& s, const Rect&) { s.open_neighbour(1); }},
+      {"[", [](Session& s, const Rect&) { s.open_neighbour(-1); }},
+      {"o", [](Session& s, const Rect&) { s.toggle_slow(); }},
+      {"k", [](Session& s, const Rect&) { s.step_slow(1); }},
+      {"j", [](Session& s, const Rect&) { s.step_slow(-1); }},
+      {"d", [](Session& s, const Rect&) { s.change_depth(1); }},
+      {"D", [](Session& s, const Rect&) { s.change_depth(-1); }},
+      {"f", [](Session& s, const Rect&) { s.switch_ray(&TraceSettings::shadows); }},
+      {"g", [](Session& s, const Rect&) { s.switch_ray(&TraceSettings::reflection); }},
+      {"r", [](Session& s, const Rect&) { s.switch_ray(&TraceSettings::refraction); }},
+      {"a", [](Session& s, const Rect&) { s.set_samples_per_edge(s.state_.n + 1); }},
+      {"A", [](Session& s, const Rect&) { s.set_samples_per_edge(s.state_.n - 1); }},
+      {"y", [](Session& s, const Rect&) { s.copy(); }},
+      {"s", [](Session& s, const Rect&) { s.save(); }},
+      {"z", [](Session& s, const Rect&) { s.reset(); }},
+      {"c", [](Session& s, const Rect&) { toggle(s.state_.controls); }},
+      {"Tab", [](Session& s, const Rect&) { s.next_panel(); }},
+      {"l", [](Session& s, const Rect&) { toggle(s.state_.lesson); }},
+      {"t", [](Session& s, const Rect&) { s.next_text_size(); }},
+      {"h", [](Session& s, const Rect&) { toggle(s.state_.help); }},
+      {"?", [](Session& s, const Rect&) { toggle(s.state_.help); }},
+      {"F1", [](Session& s, const Rect&) { toggle(s.state_.help); }},
+      {"Esc", [](Session& s, const Rect&) { s.escape(); }},
+      {"q", [](Session& s, const Rect&) { s.closed_ = true; }},
+      {"Q", [](Session& s, const Rect&) { s.closed_ = true; }},
+  });
+  return kKeys;
 }
 
 std::span<const KeyGroup> key_help() { return kGroups; }

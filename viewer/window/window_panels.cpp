@@ -229,6 +229,11 @@ void follow_keys(const WindowState& state, KeyTarget target) {
   list.AddRect(low, {low.x + size.x, low.y + size.y}, kText, 4, 0, 3);
 }
 
+void key_button(const char* label, std::vector<Command>& out) {
+  if (ImGui::Button(label))
+    out.push_back([key = std::string_view(label, 1)](Session& session) { session.press(key); });
+}
+
 DockWindow::DockWindow(const char* name, const Rect& box, bool scrollbar) {
   ImGui::SetNextWindowPos(point(box.x0, box.y0));
   ImGui::SetNextWindowSize(point(box.width(), box.height()));
