@@ -21,18 +21,9 @@ void check_planes(const Faults& faults) {
 }
 
 bool makes(std::string_view renderer, FaultKind fault) {
-  switch (fault) {
-    case FaultKind::tessellate:
-      return true;  // which is done to the scene
-    case FaultKind::shadow_offset:
-      return renderer == "raytrace";
-    case FaultKind::precision:
-      return renderer == "raster" || renderer == "raytrace";
-    case FaultKind::depth_format:
-    case FaultKind::snap_bits:
-      break;
-  }
-  return renderer == "raster";
+  if (fault == FaultKind::tessellate) return true;  // which is done to the scene
+  if (fault == FaultKind::shadow_offset) return renderer == "raytrace";
+  return renderer == "raster" || (renderer == "raytrace" && fault == FaultKind::precision);
 }
 
 }  // namespace

@@ -102,15 +102,8 @@ struct DestroyOsmesa {
 using OsmesaContext = std::unique_ptr<osmesa_context, DestroyOsmesa>;
 
 OsmesaContext make_context() {
-  const int attributes[] = {OSMESA_FORMAT,
-                            OSMESA_RGBA,
-                            OSMESA_DEPTH_BITS,
-                            0,
-                            OSMESA_STENCIL_BITS,
-                            0,
-                            OSMESA_ACCUM_BITS,
-                            0,
-                            OSMESA_PROFILE,
+  // Else as OSMesa has it: RGBA, and no depth, stencil or accumulation buffer.
+  const int attributes[] = {OSMESA_PROFILE,
                             OSMESA_CORE_PROFILE,
                             OSMESA_CONTEXT_MAJOR_VERSION,
                             3,

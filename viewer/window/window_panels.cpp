@@ -17,19 +17,8 @@ namespace {
 bool empty(const Rect& box) { return box.width() <= 0 || box.height() <= 0; }
 
 bool one_panel(const WindowState& state) {
-  switch (state.mode) {
-    case Mode::raster:
-    case Mode::raytrace:
-    case Mode::swipe:
-    case Mode::flip:
-    case Mode::difference:
-    case Mode::causes:
-      return true;
-    default:
-      break;
-  }
-  const auto layer = layer_of(state.mode);
-  return layer && !both_make(*layer);
+  if (const auto layer = layer_of(state.mode)) return !both_make(*layer);
+  return state.mode != Mode::side_by_side && state.mode != Mode::ledger;
 }
 
 Rect left_of(const Rect& panel, int x) {
