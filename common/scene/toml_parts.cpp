@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/scene/toml_parts.h"
+#include "common/scene/toml_tables.h"
 
 #include <algorithm>
 #include <array>

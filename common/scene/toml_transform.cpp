@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/scene/toml_transform.h"
+#include "common/scene/toml_tables.h"
 
 #include <array>
 #include <cmath>
