@@ -14,7 +14,6 @@
 #include "viewer/commands/progress.h"
 #include "viewer/report/bench_plot.h"
 #include "viewer/report/bench_report.h"
-#include "viewer/report/bench_table.h"
 #include "viewer/report/shell_word.h"
 
 namespace sidelight {
