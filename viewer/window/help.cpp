@@ -6,17 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "common/error.h"
 #include "viewer/window/canvas.h"
-#include "viewer/window/keys.h"
 #include "viewer/window/paint.h"
 #include "viewer/window/window_panels.h"
 
 namespace sidelight {
 namespace {
-
-void text(const std::string& words) { ImGui::TextUnformatted(words.data(), words.data() + words.size()); }
 
 // A paragraph a line, wrapped to the window; nothing in it can steer what is drawn.
 void paragraphs(const std::string& words) {
@@ -62,6 +60,56 @@ constexpr auto kButtons = std::to_array<Button>({
 bool is_there(const WindowState& state, const Button& button) {
   return button.label[0] != 'n' || !state.opened.scene.steps.empty();
 }
+
+// The keys as people read them: those of a kind together, under a title.
+struct KeyHelp {
+  std::string_view keys, text;
+};
+struct KeyGroup {
+  std::string_view title;
+  std::span<const KeyHelp> lines;
+};
+constexpr auto kLooking = std::to_array<KeyHelp>({
+    {"1", "side by side"},
+    {"2", "swipe (drag, < >)"},
+    {"3", "flip in place"},
+    {"4", "signed difference"},
+    {"5", "causes"},
+    {"6", "ledger"},
+    {"7 8", "a layer alone"},
+    {"9", "one picture alone"},
+    {"Space", "swap the two; next term of the ledger"},
+    {"wheel + -", "zoom about the cursor"},
+    {"right drag", "move the pictures"},
+    {"0, Home", "the whole picture"},
+});
+constexpr auto kMoving = std::to_array<KeyHelp>({
+    {"drag, arrows", "orbit"},
+    {"with Shift", "slide"},
+    {"Ctrl wheel . ,", "nearer, farther"},
+    {"d D", "longer, shorter paths"},
+    {"f g r", "shadows, reflection, refraction"},
+    {"a A", "more, fewer samples"},
+    {"c", "controls"},
+    {"Tab", "arrows, Space to the next open panel"},
+    {"z", "reset"},
+    {"s", "save as a new scene"},
+});
+constexpr auto kTeaching = std::to_array<KeyHelp>({
+    {"n p", "next, previous step (PageDown, PageUp)"},
+    {"l", "lesson text"},
+    {"] [", "next, previous scene"},
+    {"click, i", "inspect a pixel"},
+    {"y", "copy as command"},
+    {"o", "slow motion"},
+    {"k j", "  more, fewer"},
+    {"t", "text size"},
+    {"h ? F1", "help"},
+    {"Esc", "back, then close"},
+    {"q", "close"},
+});
+constexpr std::array<KeyGroup, 3> kGroups{
+    {{"Look", kLooking}, {"Move and change", kMoving}, {"Teach", kTeaching}}};
 
 // What the lesson's panel says: the step, or else what the scene is about.
 std::string lesson_text(const WindowState& state) {
@@ -134,10 +182,9 @@ void draw_lesson(const Canvas& canvas, const WindowContents& contents, const Rec
   paragraphs(lesson_text(state));
   ImGui::PopFont();
   if (state.step < 0) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
   text(fmt::format("step {} of {}{}", state.step + 1, state.opened.scene.steps.size(),
-                   state.revealed ? "" : "   predict, then press n to see"));
-  ImGui::PopStyleColor();
+                   state.revealed ? "" : "   predict, then press n to see"),
+       kQuiet);
 }
 
 void draw_help(const Canvas& canvas, const Rect& box) {
@@ -152,26 +199,19 @@ void draw_help(const Canvas& canvas, const Rect& box) {
   ImGui::PushFont(canvas.fonts().title);
   text("Keys");
   ImGui::PopFont();
-  const auto groups = key_help();
-  const float column = static_cast<float>(box.width()) / static_cast<float>(groups.size());
+  const float column = static_cast<float>(box.width()) / static_cast<float>(kGroups.size());
   const float top = ImGui::GetCursorPosY() + static_cast<float>(8 * scale);
-  for (std::size_t i = 0; i < groups.size(); ++i) {
+  for (std::size_t i = 0; i < kGroups.size(); ++i) {
     const float left = static_cast<float>(i) * column + static_cast<float>(16 * scale);
     ImGui::SetCursorPos({left, top});
     ImGui::BeginGroup();
-    ImGui::PushStyleColor(ImGuiCol_Text, kLeftAccent);
     ImGui::PushFont(canvas.fonts().caption);
-    text(std::string(groups[i].title));
-    ImGui::PopFont();
-    ImGui::PopStyleColor();
-    ImGui::PushFont(canvas.fonts().caption);
-    for (const KeyHelp& line : groups[i].lines) {
-      ImGui::PushStyleColor(ImGuiCol_Text, kRightAccent);
-      text(std::string(line.keys));
-      ImGui::PopStyleColor();
+    text(kGroups[i].title, kLeftAccent);
+    for (const KeyHelp& line : kGroups[i].lines) {
+      text(line.keys, kRightAccent);
       ImGui::SameLine(column * 0.42f);
       ImGui::PushTextWrapPos(left + column - static_cast<float>(16 * scale));
-      text(std::string(line.text));
+      text(line.text);
       ImGui::PopTextWrapPos();
     }
     ImGui::PopFont();

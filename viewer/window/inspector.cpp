@@ -19,8 +19,6 @@ namespace {
 
 using std::numbers::pi;
 
-void text(const std::string& words) { ImGui::TextUnformatted(words.data(), words.data() + words.size()); }
-
 // A line of words, broken at spaces only (a number stays whole), each row under the line's own beginning: the tree of
 // rays still shows.
 void wrapped_line(std::string_view line) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/window/keys.h"
-
+// The part of the session that says what the keys do; help.cpp tells it to the user.
 #include <array>
 
 #include "viewer/window/session.h"
@@ -12,48 +11,6 @@ constexpr double kTurn = 0.06, kSlide = 0.05;  // a key press: radians, picture 
 constexpr double kSwipeStep = 0.05;
 
 void toggle(bool& value) { value = !value; }
-
-constexpr auto kLooking = std::to_array<KeyHelp>({
-    {"1", "side by side"},
-    {"2", "swipe (drag, < >)"},
-    {"3", "flip in place"},
-    {"4", "signed difference"},
-    {"5", "causes"},
-    {"6", "ledger"},
-    {"7 8", "a layer alone"},
-    {"9", "one picture alone"},
-    {"Space", "swap the two; next term of the ledger"},
-    {"wheel + -", "zoom about the cursor"},
-    {"right drag", "move the pictures"},
-    {"0, Home", "the whole picture"},
-});
-constexpr auto kMoving = std::to_array<KeyHelp>({
-    {"drag, arrows", "orbit"},
-    {"with Shift", "slide"},
-    {"Ctrl wheel . ,", "nearer, farther"},
-    {"d D", "longer, shorter paths"},
-    {"f g r", "shadows, reflection, refraction"},
-    {"a A", "more, fewer samples"},
-    {"c", "controls"},
-    {"Tab", "arrows, Space to the next open panel"},
-    {"z", "reset"},
-    {"s", "save as a new scene"},
-});
-constexpr auto kTeaching = std::to_array<KeyHelp>({
-    {"n p", "next, previous step (PageDown, PageUp)"},
-    {"l", "lesson text"},
-    {"] [", "next, previous scene"},
-    {"click, i", "inspect a pixel"},
-    {"y", "copy as command"},
-    {"o", "slow motion"},
-    {"k j", "  more, fewer"},
-    {"t", "text size"},
-    {"h ? F1", "help"},
-    {"Esc", "back, then close"},
-    {"q", "close"},
-});
-constexpr std::array<KeyGroup, 3> kGroups{
-    {{"Look", kLooking}, {"Move and change", kMoving}, {"Teach", kTeaching}}};
 
 }  // namespace
 
@@ -120,7 +77,5 @@ std::span<const Session::Key> Session::keys() {
   });
   return kKeys;
 }
-
-std::span<const KeyGroup> key_help() { return kGroups; }
 
 }  // namespace sidelight
