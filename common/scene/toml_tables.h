@@ -52,7 +52,7 @@ void read_sphere(ObjectSink& sink, const toml::table& table);
 void read_plane(ObjectSink& sink, const toml::table& table);
 void read_mesh(ObjectSink& sink, const toml::table& table);
 
-// The `transform` of a mesh (toml_transform.cpp): T Rz Ry Rx S of `translate`, `rotate` (degrees) and `scale`, or `matrix`,
+// The `transform` of a mesh: T Rz Ry Rx S of `translate`, `rotate` (degrees) and `scale`, or `matrix`,
 // 16 numbers row by row. Quarter turns are exact.
 Transform read_transform(const Value& value);
 
