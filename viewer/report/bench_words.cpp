@@ -31,6 +31,13 @@ std::string setting_words(const BenchResult& result, std::size_t index) {
 
 bool same_time(const Spread& a, const Spread& b) { return !surely_faster(a, b) && !surely_faster(b, a); }
 
+// "2.1 (worst 1.4: cube.toml)".
+std::string ratio_words(const BenchResult& result, const RatioOverScenes& ratio) {
+  const std::string worst =
+      ratio.worst_scene < result.scenes.size() ? scene_name(result.scenes[ratio.worst_scene]) : "";
+  return fmt::format("{:.3g} (worst {:.3g}: {})", ratio.geometric_mean, ratio.worst, worst);
+}
+
 }  // namespace
 
 std::string knob_value(const BenchPoint& point, std::string_view knob) {
@@ -136,12 +143,6 @@ std::vector<Fact> summary_facts(const BenchResult& result, std::size_t scene) {
   add_ratio("equal-time error ratio", summary.equal_time_error,
             "{0:.3g}: in the default's time the front has {0:.3g} of its error");
   return out;
-}
-
-std::string ratio_words(const BenchResult& result, const RatioOverScenes& ratio) {
-  const std::string worst =
-      ratio.worst_scene < result.scenes.size() ? scene_name(result.scenes[ratio.worst_scene]) : "";
-  return fmt::format("{:.3g} (worst {:.3g}: {})", ratio.geometric_mean, ratio.worst, worst);
 }
 
 std::vector<Fact> facts_over_scenes(const BenchResult& result) {
