@@ -52,8 +52,8 @@ void read_sphere(ObjectSink& sink, const toml::table& table);
 void read_plane(ObjectSink& sink, const toml::table& table);
 void read_mesh(ObjectSink& sink, const toml::table& table);
 
-// The `transform` of a mesh: T Rz Ry Rx S of `translate`, `rotate` (degrees) and `scale`, or `matrix`,
-// 16 numbers row by row. Quarter turns are exact.
+// The `transform` of a mesh: T Rz Ry Rx S of `translate`, `rotate` (degrees) and `scale`, or `matrix`, 16 numbers row by
+// row. Quarter turns are exact.
 Transform read_transform(const Value& value);
 
 }  // namespace sidelight::scene_file

@@ -13,8 +13,8 @@
 
 namespace sidelight {
 
-// Small scenes on which the nearest surface is hard to tell, made in memory: what a bench asks every configuration beside the
-// user's scene, and where both renderers must agree to the last bit.
+// Small scenes on which the nearest surface is hard to tell, made in memory: what a bench asks every configuration beside
+// the user's scene, and where both renderers must agree to the last bit.
 struct HardScene {
   std::string name;
   Scene scene;

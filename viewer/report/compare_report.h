@@ -41,8 +41,8 @@ std::string compare_report(const CompareReport& report);
 // remark. Cut after 4000 bytes.
 Html lesson_html(std::string_view lesson);
 
-// The section on highlights: what cos^s looks like for the materials with a specular coefficient, the first kMostCurves in the order of the file; how many were left out
-// is said. Empty where there is none.
+// The section on highlights: what cos^s looks like for the materials with a specular coefficient, the first kMostCurves in
+// the order of the file; how many were left out is said. Empty where there is none.
 Html highlights_html(const std::vector<Material>& materials);
 
 }  // namespace sidelight
