@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // After "MTL material format (Lightwave, OBJ)", Alias/Wavefront, in P. Bourke's transcription, 1995.
-#include "common/scene/mtl.h"
+#include "common/scene/obj.h"
 
 #include <array>
 #include <cmath>

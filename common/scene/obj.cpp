@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "common/scene/limits.h"
-#include "common/scene/mtl.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/obj_text.h"
 

@@ -39,6 +39,24 @@ std::string listed(std::initializer_list<std::size_t> counts) {
 
 std::string listed(Range range) { return number_text(range.lowest) + " to " + number_text(range.highest); }
 
+// The word as a finite double; a leading + is fine, and what lies below a double's range, down to 1e-4950, is 0.
+double parse_number(const StatementReader& reader, const Word& word) {
+  const std::string_view text = without_plus(word.text);
+  const char* const end = text.data() + text.size();
+  double value = 0;
+  const auto [stop, code] = std::from_chars(text.data(), end, value);
+  if (stop != end || code == std::errc::invalid_argument)
+    reader.fail(word, quoted(word) + " is not a number");
+  if (code == std::errc::result_out_of_range) {
+    // Too large or too small? The wider type knows, and rounds the latter to 0.
+    long double wide = 0;
+    const bool small = std::from_chars(text.data(), end, wide).ec == std::errc() && std::abs(wide) < 1;
+    value = small ? static_cast<double>(wide) : std::numeric_limits<double>::infinity();
+  }
+  if (!std::isfinite(value)) reader.fail(word, quoted(word) + " is not a finite number");
+  return value;
+}
+
 }  // namespace
 
 std::string quoted(const Word& word) {
@@ -157,23 +175,6 @@ std::size_t StatementReader::numbers(const Word& keyword, std::span<double> numb
     fail(keyword, std::string(keyword.text) + " with " + std::to_string(count) + " numbers, expected " +
                       listed(counts));
   return count;
-}
-
-double parse_number(const StatementReader& reader, const Word& word) {
-  const std::string_view text = without_plus(word.text);
-  const char* const end = text.data() + text.size();
-  double value = 0;
-  const auto [stop, code] = std::from_chars(text.data(), end, value);
-  if (stop != end || code == std::errc::invalid_argument)
-    reader.fail(word, quoted(word) + " is not a number");
-  if (code == std::errc::result_out_of_range) {
-    // Too large or too small? The wider type knows, and rounds the latter to 0.
-    long double wide = 0;
-    const bool small = std::from_chars(text.data(), end, wide).ec == std::errc() && std::abs(wide) < 1;
-    value = small ? static_cast<double>(wide) : std::numeric_limits<double>::infinity();
-  }
-  if (!std::isfinite(value)) reader.fail(word, quoted(word) + " is not a finite number");
-  return value;
 }
 
 bool parse_integer(std::string_view word, long long& value) {

@@ -74,9 +74,6 @@ class StatementReader {
   bool in_statement_ = false;
 };
 
-// The word as a finite double; a leading + is fine, and what lies below a double's range, down to 1e-4950,
-// is 0. Throws InputError.
-double parse_number(const StatementReader& reader, const Word& word);
 // The word as an integer (beyond 64 bits: the largest); false if it is none.
 bool parse_integer(std::string_view text, long long& value);
 

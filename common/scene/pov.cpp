@@ -67,28 +67,25 @@ double extent(const Scene& scene) {
   return largest(most);
 }
 
-class Writer {
+class Writer : PovText {
  public:
   Writer(const Scene& scene, const std::function<void(std::string_view)>& append)
-      : scene_(scene), out_(append, std::exp2(std::floor(std::log2(kExtent / extent(scene))))) {}
+      : PovText(append, std::exp2(std::floor(std::log2(kExtent / extent(scene))))), scene_(scene) {}
 
-  void head();
-  void lights();
-  void objects();
+  void write() {
+    head();
+    for (const Light& each : scene_.lights) light(each, dvec3(1));
+    for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) object(i);
+  }
 
  private:
-  template <class... Args>
-  void line(fmt::format_string<Args...> format, Args&&... args) {
-    out_.line(format, std::forward<Args>(args)...);
-  }
-  std::string place(const dvec3& point) const { return out_.place(point); }
+  void head();
   void light(const Light& light, const dvec3& tint);
   void layers(const std::string& keyword, const Material& material, const Terms& terms, const dvec3& through);
   void object(std::uint32_t index);
   void shape(std::uint32_t index, std::uint32_t material);
 
   const Scene& scene_;
-  PovText out_;
 };
 
 void Writer::head() {
@@ -99,7 +96,7 @@ void Writer::head() {
   line("// All of the light:  {} +Q9", command);
   line("// Local light only:  {} +Q3", command);
   for (const PovLimit& limit : pov_limits(scene_)) line("// Not the same: {}", printable(limit.text, 2000));
-  line("// One unit of the scene is {} here: POV-Ray's tolerances are absolute.", out_.scale());
+  line("// One unit of the scene is {} here: POV-Ray's tolerances are absolute.", scale());
   line("#version 3.7;");
   line("global_settings {{ assumed_gamma 1 ambient_light rgb 1 max_trace_level {} adc_bailout 0 }}",
        std::min(scene_.trace.depth, kPovMostLevels));
@@ -117,7 +114,7 @@ void Writer::light(const Light& light, const dvec3& tint) {
   const dvec3 color = light.intensity * tint;
   if (light.directional) {
     // Only its distance matters, and only to shadows: beyond all that POV-Ray sees.
-    const dvec3 to = out_.scale() * scene_.camera.eye - 1e8 * light.direction;
+    const dvec3 to = scale() * scene_.camera.eye - 1e8 * light.direction;
     line("light_source {{ {} {} parallel point_at {} }}", pov_vector(to), rgb(color),
          place(scene_.camera.eye));
     return;
@@ -133,11 +130,7 @@ void Writer::light(const Light& light, const dvec3& tint) {
   const double q0 = a.q0 > 0 ? a.q0 : q * std::pow(1e-5 * extent(scene_), power);
   const double distance = std::min(std::pow(q0 / q, 1.0 / power), 1e100);  // q may be as good as 0
   line("light_source {{ {} {} fade_distance {:.17g} fade_power {} }}", place(light.position),
-       rgb(color / (2 * q0)), out_.scale() * distance, power);
-}
-
-void Writer::lights() {
-  for (const Light& each : scene_.lights) light(each, dvec3(1));
+       rgb(color / (2 * q0)), scale() * distance, power);
 }
 
 void Writer::layers(const std::string& keyword, const Material& material, const Terms& terms,
@@ -153,10 +146,6 @@ void Writer::layers(const std::string& keyword, const Material& material, const 
   // Without either, POV-Ray asks for no shadows, as we do not.
   line("    finish {{ diffuse {} phong {:.17g} phong_size {:.17g} reflection {{ {} }} }} }}",
        terms.diffuse == dvec3(0) ? 0 : 1, terms.phong, material.shininess, rgb(terms.reflect));
-}
-
-void Writer::objects() {
-  for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) object(i);
 }
 
 void Writer::object(std::uint32_t index) {
@@ -210,12 +199,12 @@ void Writer::shape(std::uint32_t index, std::uint32_t material) {
   const Object& object = scene_.objects[index];
   if (object.kind == ObjectKind::sphere) {
     const Sphere& sphere = scene_.spheres[object.first];
-    line("sphere {{ {}, {:.17g} }}", place(sphere.center), out_.scale() * sphere.radius);
+    line("sphere {{ {}, {:.17g} }}", place(sphere.center), scale() * sphere.radius);
   } else if (object.kind == ObjectKind::plane) {
     const Plane& plane = scene_.planes[object.first];
-    line("plane {{ {}, {:.17g} }}", pov_vector(plane.normal), out_.scale() * dot(plane.normal, plane.point));
+    line("plane {{ {}, {:.17g} }}", pov_vector(plane.normal), scale() * dot(plane.normal, plane.point));
   } else {
-    write_pov_mesh(out_, scene_, object, material);
+    write_pov_mesh(*this, scene_, object, material);
   }
 }
 
@@ -232,10 +221,7 @@ std::vector<std::string> pov_options(const Scene& scene) {
 }
 
 void write_pov(const Scene& scene, const std::function<void(std::string_view)>& append) {
-  Writer writer(scene, append);
-  writer.head();
-  writer.lights();
-  writer.objects();
+  Writer(scene, append).write();
 }
 
 }  // namespace sidelight

@@ -1,13 +1,41 @@
 // SPDX-License-Identifier: MIT
-// A mesh of a scene in POV-Ray's language. Private to pov.cpp and pov_limits.cpp.
+// Text in POV-Ray's language, and a mesh of a scene in it. Private to pov.cpp, pov_mesh.cpp and pov_limits.cpp.
 #pragma once
 
-#include <cstdint>
+#include <fmt/format.h>
 
-#include "common/scene/pov_text.h"
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
 #include "common/scene/scene.h"
 
 namespace sidelight {
+
+// Reads back as the same doubles.
+inline std::string pov_vector(const glm::dvec3& v) {
+  return fmt::format("<{:.17g},{:.17g},{:.17g}>", v.x, v.y, v.z);
+}
+
+class PovText {
+ public:
+  // Lines go to `append`, which must outlive this; one unit of the scene is `scale` of POV-Ray's.
+  PovText(const std::function<void(std::string_view)>& append, double scale)
+      : append_(append), scale_(scale) {}
+
+  template <class... Args>
+  void line(fmt::format_string<Args...> format, Args&&... args) const {
+    append_(fmt::format(format, std::forward<Args>(args)...) + "\n");
+  }
+  double scale() const { return scale_; }
+  std::string place(const glm::dvec3& point) const { return pov_vector(scale_ * point); }
+
+ private:
+  const std::function<void(std::string_view)>& append_;
+  double scale_;
+};
 
 // Whether corner k of the triangle has a normal; one of 0 is none, which POV-Ray would take for <1,0,0>.
 inline bool has_normal(const Scene& scene, const Triangle& triangle, std::size_t k) {

@@ -87,15 +87,6 @@ std::size_t offset_of(const std::string& text, toml::source_position at) {
   return i;
 }
 
-toml::node* child(toml::node& node, const std::string& key) {
-  if (toml::table* table = node.as_table()) return table->get(key);
-  if (toml::array* array = node.as_array()) {
-    const std::size_t element = scene_file::element_number(key);
-    return element < array->size() ? array->get(element) : nullptr;
-  }
-  return nullptr;
-}
-
 // Whether keys can be put into the table where it begins: it has a header, or is inline. One of dotted keys has neither.
 bool has_place(const std::string& text, const toml::node& table) {
   const std::size_t begin = offset_of(text, table.source().begin);
@@ -125,7 +116,7 @@ std::string with_setting(std::string text, const std::string& key_path, const st
   toml::node *at = &root, *home = &root;  // home: the table around `at` that has a place for keys
   std::string from_home;                  // the dotted keys that lead from there to `at`
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (toml::node* const next = child(*at, keys[i])) {
+    if (toml::node* const next = scene_file::child(*at, keys[i])) {
       at = next;
       from_home += toml_key(keys[i]) + ".";
       if (has_place(text, *at)) {

@@ -42,14 +42,10 @@ std::vector<dvec2> circle(int segments) {
 // viewer.
 dvec3 around_y(const dvec2& p, double radius, double y) { return {radius * p.x, y, radius * p.y}; }
 
-std::uint32_t add_position(PolygonMesh& mesh, const dvec3& p) {
-  mesh.positions.push_back(p);
-  return static_cast<std::uint32_t>(mesh.positions.size() - 1);
-}
-
-std::uint32_t add_normal(PolygonMesh& mesh, const dvec3& n) {
-  mesh.normals.push_back(n);
-  return static_cast<std::uint32_t>(mesh.normals.size() - 1);
+// Gives the number of what was added.
+std::uint32_t append(std::vector<dvec3>& to, const dvec3& v) {
+  to.push_back(v);
+  return static_cast<std::uint32_t>(to.size() - 1);
 }
 
 void add_face(PolygonMesh& mesh, std::initializer_list<Corner> corners) {
@@ -63,13 +59,13 @@ void add_face(PolygonMesh& mesh, std::initializer_list<Corner> corners) {
 // Positions of a horizontal ring; its i-th vertex has the number first + i.
 std::uint32_t add_ring(PolygonMesh& mesh, const std::vector<dvec2>& points, double radius, double y) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const dvec2& p : points) add_position(mesh, around_y(p, radius, y));
+  for (const dvec2& p : points) append(mesh.positions, around_y(p, radius, y));
   return first;
 }
 
 // A flat disc of triangles around a vertex in its middle, on the ring from vertex `first` on.
 void add_cap(PolygonMesh& mesh, std::uint32_t first, std::uint32_t segments, double y, bool faces_up) {
-  const std::uint32_t middle = add_position(mesh, {0, y, 0});
+  const std::uint32_t middle = append(mesh.positions, {0, y, 0});
   for (std::uint32_t i = 0; i < segments; ++i) {
     const Corner here{first + i}, there{first + (i + 1) % segments};
     if (faces_up)
@@ -87,7 +83,7 @@ PolygonMesh make_box(const dvec3& size) {
   // Vertex number: bit 0 is the side in x, bit 1 in y, bit 2 in z.
   for (int i = 0; i < 8; ++i) {
     const dvec3 side(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
-    add_position(mesh, side * size);
+    append(mesh.positions, side * size);
   }
   add_face(mesh, {{0}, {4}, {6}, {2}});  // -x
   add_face(mesh, {{1}, {3}, {7}, {5}});  // +x
@@ -105,7 +101,7 @@ PolygonMesh make_cylinder(double radius, double height, int segments) {
   const auto n = static_cast<std::uint32_t>(segments);
   const std::uint32_t bottom = add_ring(mesh, points, radius, 0);
   const std::uint32_t top = add_ring(mesh, points, radius, height);
-  for (const dvec2& p : points) add_normal(mesh, around_y(p, 1, 0));  // number i at vertices i
+  for (const dvec2& p : points) append(mesh.normals, around_y(p, 1, 0));  // number i at vertices i
 
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t j = (i + 1) % n;
@@ -122,14 +118,15 @@ PolygonMesh make_cone(double radius, double height, int segments) {
   const std::vector<dvec2> points = circle(segments);
   const auto n = static_cast<std::uint32_t>(segments);
   const std::uint32_t base = add_ring(mesh, points, radius, 0);
-  const std::uint32_t apex = add_position(mesh, {0, height, 0});
+  const std::uint32_t apex = append(mesh.positions, {0, height, 0});
 
   // The side falls by `height` over `radius`, so its normal rises by `radius` over `height`. At the apex,
   // where all normals meet, each face takes that of its own middle.
-  for (const dvec2& p : points) add_normal(mesh, around_y(p, height, radius));  // number i at vertex i
+  for (const dvec2& p : points) append(mesh.normals, around_y(p, height, radius));  // number i at vertex i
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t j = (i + 1) % n;
-    const std::uint32_t middle = add_normal(mesh, around_y(circle_point(2 * i + 1, 2 * n), height, radius));
+    const std::uint32_t middle =
+        append(mesh.normals, around_y(circle_point(2 * i + 1, 2 * n), height, radius));
     add_face(mesh, {{base + i, i}, {apex, middle}, {base + j, j}});
   }
   add_cap(mesh, base, n, 0, false);
@@ -142,8 +139,8 @@ PolygonMesh make_torus(double major, double minor, int around, int tube) {
   const std::vector<dvec2> section = circle(tube);
   for (const dvec2& p : circle(around))
     for (const dvec2& q : section) {
-      add_position(mesh, around_y(p, major + minor * q.x, minor * q.y));
-      add_normal(mesh, around_y(p, q.x, q.y));
+      append(mesh.positions, around_y(p, major + minor * q.x, minor * q.y));
+      append(mesh.normals, around_y(p, q.x, q.y));
     }
 
   const auto rings = static_cast<std::uint32_t>(around), n = static_cast<std::uint32_t>(tube);
@@ -161,11 +158,11 @@ PolygonMesh make_sphere_mesh(int segments) {
   PolygonMesh mesh;
   const auto n = static_cast<std::uint32_t>(segments), rings = n / 2 - 1;
   const std::vector<dvec2> equator = circle(segments);
-  for (std::uint32_t k = 1; k <= rings; ++k) {   // from the south pole up
+  for (std::uint32_t k = 1; k <= rings; ++k) {  // from the south pole up
     const dvec2 meridian = circle_point(k, segments);
     add_ring(mesh, equator, meridian.y, -meridian.x);
   }
-  const std::uint32_t south = add_position(mesh, {0, -1, 0}), north = add_position(mesh, {0, 1, 0});
+  const std::uint32_t south = append(mesh.positions, {0, -1, 0}), north = append(mesh.positions, {0, 1, 0});
   mesh.normals = mesh.positions;
 
   const auto corner = [](std::uint32_t i) { return Corner{i, i}; };

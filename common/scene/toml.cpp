@@ -7,10 +7,9 @@
 
 #include "common/float_state.h"
 #include "common/scene/step_modes.h"
-#include "common/scene/toml_objects.h"
-#include "common/scene/toml_parts.h"
 #include "common/scene/toml_set.h"
 #include "common/scene/toml_source.h"
+#include "common/scene/toml_tables.h"
 #include "common/scene/toml_values.h"
 
 namespace sidelight {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/scene/toml_objects.h"
+#include "common/scene/toml_tables.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include "common/scene/build.h"
 #include "common/scene/obj.h"
 #include "common/scene/shapes.h"
-#include "common/scene/toml_transform.h"
 
 namespace sidelight::scene_file {
 namespace {

@@ -44,12 +44,6 @@ struct Walk {
   }
 };
 
-toml::node* child(toml::node& parent, const std::string& key) {
-  if (auto* table = parent.as_table()) return table->get(key);
-  auto* array = parent.as_array();
-  return array ? array->get(element_number(key)) : nullptr;
-}
-
 // There is no `key` in `parent` and none may be added.
 [[noreturn]] void fail_missing(const Walk& walk, const toml::node& parent, const std::string& key) {
   if (const auto* array = parent.as_array())
@@ -111,6 +105,12 @@ std::size_t element_number(std::string_view key) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
   return error == std::errc() && end == key.data() + key.size() ? number : SIZE_MAX;
+}
+
+toml::node* child(toml::node& parent, const std::string& key) {
+  if (auto* table = parent.as_table()) return table->get(key);
+  auto* array = parent.as_array();
+  return array ? array->get(element_number(key)) : nullptr;
 }
 
 void set_value(const Document& document, toml::table& root, std::string_view path,

@@ -34,6 +34,9 @@ std::vector<std::string> split_path(std::string_view path, const SourceLocation&
 // The number of an array's element as a path writes it; SIZE_MAX if `key` is none.
 std::size_t element_number(std::string_view key);
 
+// The node under one key of a path, or null.
+toml::node* child(toml::node& parent, const std::string& key);
+
 // Puts `value`, which keeps its place in the file, under `path`, whose keys' place is `where`. InputError there if
 // the path leads nowhere; keys that the format does not know are left for the reader of the table to find.
 void set_value(const Document& document, toml::table& root, std::string_view path,

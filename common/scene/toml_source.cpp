@@ -21,15 +21,13 @@ toml::source_position position_of(std::string_view text, std::size_t at) {
   return {static_cast<toml::source_index>(line), static_cast<toml::source_index>(column)};
 }
 
-// Where the comment or string (of TOML's four kinds) that begins at text[at] ends: at the character after it, or,
-// if it is not closed, where toml++ will complain before it reads another key.
-std::size_t after_comment(std::string_view text, std::size_t at) { return text.find('\n', at); }
-
 // A string of several lines may end in one or two quotes of its own, before its last three.
 std::size_t closing_quotes(std::string_view five) {
   return std::min(five.find_first_not_of(five[0]), five.size());
 }
 
+// Where the string (of TOML's four kinds) that begins at text[at] ends: at the character after it, or, if it is not closed,
+// where toml++ will complain before it reads another key.
 std::size_t after_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string_view triple = quote == '"' ? "\"\"\"" : "'''";
@@ -54,7 +52,7 @@ std::size_t overlong_key(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
     if (c == '#') {
-      i = std::min(after_comment(text, i), text.size());
+      i = std::min(text.find('\n', i), text.size());
       continue;
     }
     if (c == '"' || c == '\'') {

@@ -6,7 +6,7 @@
 #include "common/error.h"
 #include "common/scene/toml.h"
 #include "tests/agreement/pictures.h"
-#include "viewer/bench/raster_primary.h"
+#include "viewer/bench/stage.h"
 
 using namespace sidelight;
 using namespace sidelight::test;

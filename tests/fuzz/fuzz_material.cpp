@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // MTL files.
-#include "common/scene/mtl.h"
+#include "common/scene/obj.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/picture/folder.h"
 

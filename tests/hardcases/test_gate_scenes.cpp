@@ -6,7 +6,7 @@
 #include "tests/hardcases/relations.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/scenes.h"
-#include "viewer/bench/hard_scenes.h"
+#include "viewer/bench/hard_cases.h"
 
 using namespace sidelight;
 using namespace sidelight::test;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The MTL reader: the mapping to the scene's materials, and every kind of mistake with its line and column.
-#include "common/scene/mtl.h"
+#include "common/scene/obj.h"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 // Files that were spoilt in a few places are read or refused, never worse: a valid scene, or an InputError that begins
 // with file:line:column. Seeded, so that a failure can be repeated; tests/fuzz searches the same ground by coverage.
 //
-// What keeps each of them short is not measured in seconds but by what the reader counts (Effort in toml_objects.h);
+// What keeps each of them short is not measured in seconds but by what the reader counts (Effort in toml_tables.h);
 // its limits are tested here too, since spoilt files seldom reach them.
 #include <doctest/doctest.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a bench found out as text: the terminal's table and the CSV.
-#include "viewer/report/bench_table.h"
+#include "viewer/report/bench_report.h"
 
 #include "tests/support/text.h"
 #include "tests/viewer/bench_results.h"

@@ -9,8 +9,7 @@
 #include "tests/support/text.h"
 #include "tests/tier.h"
 #include "tests/viewer/program.h"
-#include "viewer/report/highlights.h"
-#include "viewer/report/lesson_html.h"
+#include "viewer/report/compare_report.h"
 #include "viewer/report/plot_svg.h"
 
 using namespace sidelight;

@@ -79,10 +79,9 @@ void use(Session& session, std::mt19937& random) {
     case 0:
     case 1: {
       // Any key but those that leave, and the one that writes files.
-      const auto keys = key_bindings();
-      const KeyBinding& key = keys[static_cast<std::size_t>(below(static_cast<int>(keys.size())))];
-      if (key.action != Action::escape && key.action != Action::close && key.action != Action::save)
-        session.press(key.key, kPanel);
+      const auto keys = Session::keys();
+      const std::string_view key = keys[static_cast<std::size_t>(below(static_cast<int>(keys.size())))].name;
+      if (key != "Esc" && key != "q" && key != "Q" && key != "s") session.press(key, kPanel);
       return;
     }
     case 2:

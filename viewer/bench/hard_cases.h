@@ -8,10 +8,21 @@
 #include <string>
 #include <vector>
 
-#include "viewer/bench/hard_scenes.h"
+#include "common/scene/scene.h"
 #include "viewer/bench/visible.h"
 
 namespace sidelight {
+
+// Small scenes on which the nearest surface is hard to tell, made in memory: what a bench asks every configuration beside
+// the user's scene, and where both renderers must agree to the last bit.
+struct HardScene {
+  std::string name;
+  Scene scene;
+};
+std::vector<HardScene> hard_scenes();
+
+// One grey material with a highlight, a lamp beside the eye, and nothing to see yet.
+Scene lit_scene(const glm::dvec3& eye, const glm::dvec3& look_at);
 
 inline constexpr int kHardWidth = 64, kHardHeight = 48;  // of a hard scene's picture, one sample a pixel
 

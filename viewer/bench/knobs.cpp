@@ -21,6 +21,15 @@ std::optional<T> number(const std::string& text, T low, T high) {
   return value;
 }
 
+// The value that leaves the setting alone, or a number in its range.
+template <class T>
+bool set_number(std::optional<T>& setting, const std::string& value, std::string_view standard, T low,
+                T high) {
+  if (value == standard) return true;
+  setting = number(value, low, high);
+  return setting.has_value();
+}
+
 bool set_renderer(Setting& setting, const std::string& value) {
   setting.raster = value == "raster";
   return setting.raster || value == "raytrace";
@@ -34,19 +43,14 @@ bool set_samples(Setting& setting, const std::string& value) {
   return setting.n > 0;
 }
 bool set_depth(Setting& setting, const std::string& value) {
-  if (value == "scene") return true;
-  setting.depth = number(value, 1, 1000);
-  return setting.depth.has_value();
+  return set_number(setting.depth, value, "scene", 1, 1000);
 }
 bool set_cut(Setting& setting, const std::string& value) {
-  if (value == "scene") return true;
-  setting.cut = number(value, 0.0, 1.0);
-  return setting.cut.has_value();
+  return set_number(setting.cut, value, "scene", 0.0, 1.0);
 }
 bool set_tessellation(Setting& setting, const std::string& value) {
-  if (value == "off") return true;
-  setting.faults.tessellate = number(value, 4, 1024);
-  return setting.faults.tessellate && *setting.faults.tessellate % 2 == 0;
+  return set_number(setting.faults.tessellate, value, "off", 4, 1024) &&
+         setting.faults.tessellate.value_or(0) % 2 == 0;
 }
 bool set_precision(Setting& setting, const std::string& value) {
   setting.faults.float_precision = value == "float";
@@ -60,9 +64,7 @@ bool set_depth_format(Setting& setting, const std::string& value) {
   return true;
 }
 bool set_snap_bits(Setting& setting, const std::string& value) {
-  if (value == "exact") return true;
-  setting.faults.snap_bits = number(value, 0, 16);
-  return setting.faults.snap_bits.has_value();
+  return set_number(setting.faults.snap_bits, value, "exact", 0, 16);
 }
 bool set_threads(Setting& setting, const std::string& value) {
   if (value == "all") return true;

@@ -18,7 +18,7 @@ namespace sidelight {
 
 struct Setting {
   bool raster = false;       // the z-buffer, else the ray tracer
-  bool from_raster = false;  // which takes what samples show from the z-buffer (raster_primary.h)
+  bool from_raster = false;  // which takes what samples show from the z-buffer (stage.h)
   int n = 1;                 // n x n samples a pixel
   std::optional<int> depth;  // else as the scene says, and so for the cut
   std::optional<double> cut;

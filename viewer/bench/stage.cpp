@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "common/clock.h"
 #include "common/scene/tessellate.h"
-#include "viewer/bench/raster_primary.h"
 
 namespace sidelight {
 
@@ -13,6 +13,22 @@ double steps_an_eye_ray(const RenderStats& stats) {
   if (stats.rays.primary == 0) return 0;
   return static_cast<double>(stats.rays.total() + stats.visibility.nodes + stats.visibility.tests) /
          static_cast<double>(stats.rays.primary);
+}
+
+Frame render_from_raster(const raster::Prepared& finds, const raytrace::Prepared& traces,
+                         const Camera& camera, const RenderOptions& options) {
+  RenderOptions samples = options;
+  samples.layers = 0;
+  samples.keep_samples = true;
+  samples.progress = {};
+  LapClock clock;
+  const Frame found = raster::render(finds, camera, samples);
+  const double raster_ms = clock.lap_ms();
+  RenderOptions from_there = options;
+  from_there.primary = &found;
+  Frame frame = raytrace::render(traces, camera, from_there);
+  frame.stats.stages = {{"raster", raster_ms}, {"raytrace", clock.lap_ms()}};
+  return frame;
 }
 
 Stage::Stage(Scene scene, std::atomic<bool>* cancel) : scene_(std::move(scene)), cancel_(cancel) {}
@@ -55,7 +71,8 @@ const raster::Prepared& Stage::prepared_for_raster(std::optional<int> tessellate
   return *it.for_raster;
 }
 
-Frame Stage::render(const Setting& setting, const Camera& camera, bool keep_samples) {
+Frame Stage::render(const Setting& setting, bool keep_samples) {
+  const Camera view = camera(setting.n);
   RenderOptions options;
   options.threads = setting.threads;
   options.isa = setting.isa;
@@ -65,10 +82,10 @@ Frame Stage::render(const Setting& setting, const Camera& camera, bool keep_samp
   options.keep_samples = keep_samples;
   options.cancel = cancel_;
   const Model model = model_of(setting);
-  if (setting.raster) return raster::render(prepared_for_raster(model.tessellate), camera, options);
+  if (setting.raster) return raster::render(prepared_for_raster(model.tessellate), view, options);
   const raytrace::Prepared& prepared = prepared_for(model);
-  if (!setting.from_raster) return raytrace::render(prepared, camera, options);
-  return render_from_raster(prepared_for_raster(model.tessellate), prepared, camera, options);
+  if (!setting.from_raster) return raytrace::render(prepared, view, options);
+  return render_from_raster(prepared_for_raster(model.tessellate), prepared, view, options);
 }
 
 double Stage::trial_steps(const Setting& setting) {

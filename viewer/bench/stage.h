@@ -27,6 +27,14 @@ struct Model {
 // tried on them. Of one eye ray: that times the samples of a pixel are the steps of a pixel. A z-buffer sends none.
 double steps_an_eye_ray(const RenderStats& stats);
 
+// The ray tracer with the z-buffer's answer to what each sample shows, in place of eye rays. Both name the same surface at
+// the same depth, so not one bit of the picture changes; what does is who did the work. The one place where a picture
+// takes both renderers: neither knows of the other.
+// Layers: kAllLayers but cost, which counts the tests of eye rays. No faults. Its time is that of both renderers, told
+// apart in stats.stages (the z-buffer shades what it finds, too); its counts are the ray tracer's.
+Frame render_from_raster(const raster::Prepared& finds, const raytrace::Prepared& traces,
+                         const Camera& camera, const RenderOptions& options);
+
 class Stage {
  public:
   // Rendering throws Interrupted when `cancel`, which may be null, is raised.
@@ -42,9 +50,7 @@ class Stage {
   const Scene& scene_of(const Setting& setting) { return form(setting.faults.tessellate, false).scene; }
 
   // The setting's picture: its colours, and the primitive and depth of every sample if they are to be kept.
-  Frame render(const Setting& setting, bool keep_samples) {
-    return render(setting, camera(setting.n), keep_samples);
-  }
+  Frame render(const Setting& setting, bool keep_samples);
   // Of a pixel of that picture, tried out as its recursion takes them. 0 for the z-buffer.
   double trial_steps(const Setting& setting);
   // What a renderer does once a scene. Settings with the same key share it.
@@ -66,7 +72,6 @@ class Stage {
     std::shared_ptr<const raster::Prepared> for_raster;
     std::shared_ptr<const raytrace::Prepared> for_raytrace;
   };
-  Frame render(const Setting& setting, const Camera& camera, bool keep_samples);
   Form& form(std::optional<int> tessellate, bool local);
   const raytrace::Prepared& prepared_for(const Model& model);
   const raster::Prepared& prepared_for_raster(std::optional<int> tessellate);

@@ -4,7 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "viewer/commands/all_modes.h"
+#include <array>
+#include <span>
+
+#include "common/picture/layer_picture.h"
+#include "common/picture/signed_difference.h"
 #include "viewer/commands/commands.h"
 #include "viewer/commands/faulty.h"
 #include "viewer/commands/renderers.h"
@@ -78,6 +82,37 @@ void write_pictures(const Job& job, const std::string& folder, const TimedFrame&
   write_png(folder + "/causes.png", to_image8(cause_map(rastered.frame, traced.frame), width, height), both);
   write_exr(folder + "/raster.exr", rastered.frame, raster_metadata);
   write_exr(folder + "/raytrace.exr", traced.frame, trace_metadata);
+}
+
+void write_layers(const Job& job, const std::string& folder, const Renderer& renderer, const Frame& frame) {
+  const Metadata metadata = job_metadata(job, std::string(renderer.name));
+  for (int i = 0; i < kLayers; ++i) {
+    const auto layer = static_cast<Layer>(i);
+    if (!(renderer.layers & layer_bit(layer))) continue;
+    const std::string_view name = kLayerNames[static_cast<std::size_t>(i)];
+    write_png(fmt::format("{}/{}_{}.png", folder, renderer.name, name), layer_picture(frame, layer),
+              metadata);
+  }
+}
+
+// Everything that the comparison knows, as pictures for slides: into `folder`, which is made, as 8-bit PNG
+//   raster_LAYER.png, raytrace_LAYER.png   each layer that the frame's renderer makes (layer_picture.h)
+//   ledger_1_raster.png, ...               the left picture becoming the right one (ledger_sums in compare.h)
+//   signed_difference.png                  where the right picture is brighter or darker (signed_difference.h)
+void write_all_modes(const Job& job, const std::string& folder, const Frame& rastered, const Frame& traced) {
+  make_folder(folder);
+  write_layers(job, folder, *find_renderer("raster"), rastered);
+  write_layers(job, folder, *find_renderer("raytrace"), traced);
+
+  const Metadata both = job_metadata(job, "raster, raytrace");
+  const auto write = [&](const std::string& name, std::span<const glm::vec3> linear) {
+    write_png(folder + "/" + name, to_image8(linear, traced.width(), traced.height()), both);
+  };
+  constexpr std::array<const char*, 4> kSteps{"1_raster", "2_minus_shadow", "3_plus_reflection",
+                                              "4_plus_refraction"};
+  const auto sums = ledger_sums(rastered, traced);
+  for (std::size_t k = 0; k < sums.size(); ++k) write(fmt::format("ledger_{}.png", kSteps[k]), sums[k]);
+  write("signed_difference.png", signed_difference(rastered, traced));
 }
 
 std::string report(const Job& job, const Comparison& result, const Spoiled& spoiled,

@@ -75,12 +75,6 @@ std::string change_text(Terms change, bool raster, bool coded) {
   return fmt::format("ours {} {}", raster ? "with" : "without", fmt::join(names, " and "));
 }
 
-// ---- The command to type ----
-
-std::string explain_command(const Job& job, int x, int y) {
-  return fmt::format("{} --pixel {},{}", printable(command_line(job, "explain"), 2000), x, y);
-}
-
 // ---- For people and programs ----
 
 std::string triple(const glm::vec3& v) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x, v.y, v.z); }
@@ -185,11 +179,12 @@ Account account_for(const OurPictures& ours, const PicturePair& pair, double fai
                    [](const Reason& a, const Reason& b) { return a.pixels > b.pixels; });
 
   constexpr std::size_t kShown = 5;
+  const std::string explain = printable(command_line(ours.job, "explain"), 2000);
   const int apart = 1 + std::max(pair.window.width(), pair.window.height()) / 16;
   for (const std::size_t i : worst_pixels(pair.differences, pair.width(), fail, kShown, apart)) {
     const auto change = change_that_fits(ours, pair, i, fail);
     account.worst.push_back({i, change ? change_text(*change, ours.raster, pair.coded) : std::string(),
-                             explain_command(ours.job, pair.x(i), pair.y(i))});
+                             fmt::format("{} --pixel {},{}", explain, pair.x(i), pair.y(i))});
   }
   return account;
 }

@@ -14,25 +14,10 @@
 namespace sidelight {
 namespace {
 
-void check_planes(const Faults& faults) {
-  const double near = faults.near_plane, far = faults.far_plane;
-  if (!(0 < near && near < far && far <= kLargest))
-    throw UsageError(fmt::format("--near and --far want 0 < near < far <= 1e15; got {} and {}", near, far));
-}
-
 bool makes(std::string_view renderer, FaultKind fault) {
-  switch (fault) {
-    case FaultKind::tessellate:
-      return true;  // which is done to the scene
-    case FaultKind::shadow_offset:
-      return renderer == "raytrace";
-    case FaultKind::precision:
-      return renderer == "raster" || renderer == "raytrace";
-    case FaultKind::depth_format:
-    case FaultKind::snap_bits:
-      break;
-  }
-  return renderer == "raster";
+  if (fault == FaultKind::tessellate) return true;  // which is done to the scene
+  if (fault == FaultKind::shadow_offset) return renderer == "raytrace";
+  return renderer == "raster" || (renderer == "raytrace" && fault == FaultKind::precision);
 }
 
 }  // namespace
@@ -72,7 +57,9 @@ Faults parse_faults(const FaultFlags& flags, const CameraSettings& camera) {
     faults.set_usual_planes(glm::distance(camera.eye, camera.look_at));
     faults.near_plane = flags.near_plane.value_or(faults.near_plane);
     faults.far_plane = flags.far_plane.value_or(faults.far_plane);
-    check_planes(faults);
+    const double near = faults.near_plane, far = faults.far_plane;
+    if (!(0 < near && near < far && far <= kLargest))
+      throw UsageError(fmt::format("--near and --far want 0 < near < far <= 1e15; got {} and {}", near, far));
   }
   faults.snap_bits = flags.snap_bits;
   faults.tessellate = flags.tessellate;

@@ -48,10 +48,6 @@ glm::vec3 through_8_bits(const glm::vec3& linear, float (*decode)(std::uint8_t))
   return {each(linear.x), each(linear.y), each(linear.z)};
 }
 
-void quantise(Picture& picture) {
-  for (glm::vec3& color : picture.color) color = through_8_bits(color, decode_srgb8);
-}
-
 template <class T>
 std::optional<std::uint64_t> count_different(const std::vector<T>& a, const std::vector<T>& b) {
   if (a.empty() || b.empty()) return {};
@@ -115,7 +111,8 @@ PicturePair::PicturePair(Picture first, Picture second) : a(std::move(first)), b
   check_match(a, b);
   coded = a.png != b.png;
   window = a.png ? b.window : a.window;
-  if (coded) quantise(a.png ? b : a);
+  if (coded)
+    for (glm::vec3& color : (a.png ? b : a).color) color = through_8_bits(color, decode_srgb8);
   differences = pixel_differences(values(a.color), values(b.color));
   if (!a.alpha.empty()) include_channel(differences, a.alpha, b.alpha);
 }

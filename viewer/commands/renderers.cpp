@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "viewer/bench/raster_primary.h"
+#include "viewer/bench/stage.h"
 #include "viewer/commands/progress.h"
 
 namespace sidelight {

@@ -8,7 +8,6 @@
 #include "viewer/commands/commands.h"
 #include "viewer/commands/interrupt.h"
 #include "viewer/commands/renderers.h"
-#include "viewer/window/keys.h"
 #include "viewer/window/offscreen.h"
 #include "viewer/window/window.h"
 

@@ -2,6 +2,7 @@
 #include "viewer/report/bench_report.h"
 
 #include <algorithm>
+#include <array>
 
 #include "viewer/report/bench_numbers.h"
 #include "viewer/report/bench_pictures.h"
@@ -49,22 +50,17 @@ them, and cannot stand on the front however fast they are. Dotted lines join the
               scatter_svg(total_scatter(page.result, scene)));
 }
 
-Html kind_words(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::arithmetic:
-      return html("<b>Arithmetic</b>: rounding, with the same samples and the same model.");
-    case ErrorKind::model:
-      return html("<b>Model</b>: what the configuration leaves out, such as rays or curvature.");
-    case ErrorKind::sampling:
-      return html("<b>Sampling</b>: too few samples a pixel.");
-  }
-  return {};
-}
+// By ErrorKind.
+constexpr std::array<const char*, kErrorKinds> kKindWords{
+    "<b>Arithmetic</b>: rounding, with the same samples and the same model.",
+    "<b>Model</b>: what the configuration leaves out, such as rays or curvature.",
+    "<b>Sampling</b>: too few samples a pixel."};
 
 Html kinds(const Page& page, std::size_t scene) {
   Html plots;
   for (const auto& [kind, plot] : small_kind_scatters(page.result, scene))
-    plots += html("<figure><figcaption>{}</figcaption>{}</figure>\n", kind_words(kind), scatter_svg(plot));
+    plots += html("<figure><figcaption>{}</figcaption>{}</figure>\n",
+                  Html{kKindWords[static_cast<std::size_t>(kind)]}, scatter_svg(plot));
   if (plots.empty()) return {};
   return html(R"(<h3>The kinds of error, kept apart</h3>
 <p>On the same axes: the renderers' default settings, and the configurations that move a kind of error by more than a

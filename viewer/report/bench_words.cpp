@@ -31,6 +31,13 @@ std::string setting_words(const BenchResult& result, std::size_t index) {
 
 bool same_time(const Spread& a, const Spread& b) { return !surely_faster(a, b) && !surely_faster(b, a); }
 
+// "2.1 (worst 1.4: cube.toml)".
+std::string ratio_words(const BenchResult& result, const RatioOverScenes& ratio) {
+  const std::string worst =
+      ratio.worst_scene < result.scenes.size() ? scene_name(result.scenes[ratio.worst_scene]) : "";
+  return fmt::format("{:.3g} (worst {:.3g}: {})", ratio.geometric_mean, ratio.worst, worst);
+}
+
 }  // namespace
 
 std::string knob_value(const BenchPoint& point, std::string_view knob) {
@@ -126,25 +133,16 @@ std::vector<Fact> summary_facts(const BenchResult& result, std::size_t scene) {
   add("default setting", summary.standard);
   add("fastest exact", summary.fastest_exact);
   add("most accurate", summary.most_accurate);
-  if (const auto& ratio = summary.equal_error_speedup)
-    out.push_back(
-        {"equal-error speed-up",
-         *ratio == 1
-             ? "1: the default setting stands on the front"
-             : fmt::format("{0:.3g}: at the default's error the front takes 1/{0:.3g} of its time", *ratio)});
-  if (const auto& ratio = summary.equal_time_error)
-    out.push_back(
-        {"equal-time error ratio",
-         *ratio == 1
-             ? "1: the default setting stands on the front"
-             : fmt::format("{0:.3g}: in the default's time the front has {0:.3g} of its error", *ratio)});
+  const auto add_ratio = [&](const char* name, const std::optional<double>& ratio, const char* words) {
+    if (!ratio) return;
+    out.push_back({name, *ratio == 1 ? "1: the default setting stands on the front"
+                                     : fmt::format(fmt::runtime(words), *ratio)});
+  };
+  add_ratio("equal-error speed-up", summary.equal_error_speedup,
+            "{0:.3g}: at the default's error the front takes 1/{0:.3g} of its time");
+  add_ratio("equal-time error ratio", summary.equal_time_error,
+            "{0:.3g}: in the default's time the front has {0:.3g} of its error");
   return out;
-}
-
-std::string ratio_words(const BenchResult& result, const RatioOverScenes& ratio) {
-  const std::string worst =
-      ratio.worst_scene < result.scenes.size() ? scene_name(result.scenes[ratio.worst_scene]) : "";
-  return fmt::format("{:.3g} (worst {:.3g}: {})", ratio.geometric_mean, ratio.worst, worst);
 }
 
 std::vector<Fact> facts_over_scenes(const BenchResult& result) {

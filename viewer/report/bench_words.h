@@ -43,8 +43,6 @@ struct Fact {
 std::vector<Fact> summary_facts(const BenchResult& result, std::size_t scene);
 // The gains over all scenes: geometric means of ratios, and the worst. Empty for one scene.
 std::vector<Fact> facts_over_scenes(const BenchResult& result);
-// "2.1 (worst 1.4: cube.toml)".
-std::string ratio_words(const BenchResult& result, const RatioOverScenes& ratio);
 // How the reference image came to be and how far it can be trusted, in sentences.
 std::string reference_words(const ReferenceImage& reference);
 

@@ -7,9 +7,6 @@
 
 #include "common/picture/signed_difference.h"
 #include "viewer/report/embedded_picture.h"
-#include "viewer/report/highlights.h"
-#include "viewer/report/html.h"
-#include "viewer/report/lesson_html.h"
 
 namespace sidelight {
 namespace {

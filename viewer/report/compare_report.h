@@ -5,12 +5,14 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "common/picture/compare.h"
 #include "common/picture/image_io.h"
 #include "common/scene/scene.h"
+#include "viewer/report/html.h"
 #include "viewer/window/panels.h"
 
 namespace sidelight {
@@ -31,5 +33,16 @@ struct CompareReport {
 // The page. Pictures of more than 2^22 pixels are embedded reduced by a whole factor, which the page says. Equal
 // arguments give equal bytes.
 std::string compare_report(const CompareReport& report);
+
+// ---- Its parts in files of their own ----
+
+// A scene's lesson as paragraphs, which blank lines part; other line breaks are those of the file, not of the page. An
+// indented line that begins with "sidelight " is a command and stays a line; what stands behind two blanks in it is a
+// remark. Cut after 4000 bytes.
+Html lesson_html(std::string_view lesson);
+
+// The section on highlights: what cos^s looks like for the materials with a specular coefficient, the first kMostCurves in
+// the order of the file; how many were left out is said. Empty where there is none.
+Html highlights_html(const std::vector<Material>& materials);
 
 }  // namespace sidelight

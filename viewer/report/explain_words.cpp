@@ -93,19 +93,9 @@ class Words {
 }  // namespace
 
 const char* ray_name(RayKind kind) {
-  switch (kind) {
-    case RayKind::eye:
-      return "eye";
-    case RayKind::mirrored:
-      return "mirrored";
-    case RayKind::refracted:
-      return "refracted";
-    case RayKind::internally_reflected:
-      return "internally reflected";
-    case RayKind::straight:
-      return "straight on";
-  }
-  return "";
+  constexpr std::array<const char*, 5> kNames{"eye", "mirrored", "refracted", "internally reflected",
+                                              "straight on"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string primitive_text(const Scene& scene, std::uint32_t primitive) {

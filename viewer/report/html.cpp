@@ -14,24 +14,16 @@ constexpr std::string_view kReplacement = "\uFFFD";
 constexpr int kLeastWidth = 480;  // of a picture on the page, in CSS pixels: what is smaller is enlarged
 
 std::string_view inert(std::string_view sequence) {
-  switch (sequence[0]) {
-    case '&':
-      return "&amp;";
-    case '<':
-      return "&lt;";
-    case '>':
-      return "&gt;";
-    case '"':
-      return "&quot;";
-    case '\'':
-      return "&#39;";
-    case '\t':
-    case '\r':
-    case '\n':
-      return " ";
-    default:
-      break;
-  }
+  constexpr std::array<std::pair<char, std::string_view>, 8> kEntities{{{'&', "&amp;"},
+                                                                        {'<', "&lt;"},
+                                                                        {'>', "&gt;"},
+                                                                        {'"', "&quot;"},
+                                                                        {'\'', "&#39;"},
+                                                                        {'\t', " "},
+                                                                        {'\r', " "},
+                                                                        {'\n', " "}}};
+  for (const auto& [c, entity] : kEntities)
+    if (c == sequence[0]) return entity;
   const char32_t code = code_point(sequence, 0, sequence.size());
   const bool in_xml = code != 0xFFFE && code != 0xFFFF;  // which a plot's own file is
   return is_harmful(code) || !in_xml ? kReplacement : sequence;

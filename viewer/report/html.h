@@ -104,7 +104,7 @@ Html table_html(const Table& table);
 // The whole file.
 std::string page_html(std::string_view title, const Html& body);
 
-// What page_html embeds (page_style.cpp, page_script.cpp, plot_style.cpp): the style of plots has the colours of all.
+// What page_html embeds (page_style.cpp, page_script.cpp): the style of plots has the colours of all.
 std::string plot_style();
 extern const std::string_view kPageStyle;
 extern const std::string_view kPageScript;

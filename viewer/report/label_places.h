@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Where labels go beside the marks of a plot, so that none covers another, a mark, or leaves the plot.
+// Labels of a plot, in a type whose letters have no known width: how they are cut and broken into lines, and where they go
+// beside their marks, so that none covers another, a mark, or leaves the plot.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sidelight {
+
+inline constexpr std::size_t kLongestLine = 34;  // of a label, in letters
+
+// Its first kLongestLine letters, with an ellipsis where there are more.
+std::string shortened(const std::string& text);
+
+// Broken at a blank into two lines where it is longer than one, so that a number at its end can be read; each shortened.
+std::vector<std::string> in_two_lines(const std::string& text);
+
+// At most, nearly always, where no letter is wider than `letter`.
+double text_width(const std::string& line, double letter);
 
 struct Rectangle {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // y down

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/report/lesson_html.h"
+#include "viewer/report/compare_report.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Plots as SVG within a page: curves over linear axes, and the lobe of a highlight as a lecture draws it. Colours come
-// from the page's style (plot_style.cpp), so that plots follow it into the dark; curves differ by dashes too.
+// from the page's style (page_style.cpp), so that plots follow it into the dark; curves differ by dashes too.
 #pragma once
 
 #include <glm/vec2.hpp>

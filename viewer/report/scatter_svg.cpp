@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "viewer/report/label_places.h"
-#include "viewer/report/label_text.h"
 #include "viewer/report/log_axis.h"
 
 namespace sidelight {

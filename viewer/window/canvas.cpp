@@ -96,8 +96,6 @@ Canvas::Canvas(GlLoader loader, double scale)
   load_fonts();
 }
 
-Canvas::~Canvas() = default;
-
 void Canvas::set_scale(double scale) {
   if (scale == scale_) return;
   scale_ = scale;

@@ -36,7 +36,6 @@ class Canvas {
  public:
   // Throws OutputError if the OpenGL context lacks something.
   explicit Canvas(GlLoader loader, double scale = 1);
-  ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel of sliders: what may be changed in the scene while it is looked at.
+// The sliders: what may be changed in the scene while it is looked at, and slow motion.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -140,12 +140,28 @@ void draw_controls(const Canvas& canvas, const WindowContents& contents, const R
   heading(canvas, "Faults on purpose");
   draw_faults(state, out);
   ImGui::Spacing();
-  for (const auto& [label, action] :
-       {std::pair("z reset", Action::reset), std::pair("s save", Action::save)}) {
-    if (ImGui::Button(label)) out.push_back([action = action](Session& session) { session.act(action, {}); });
+  for (const char* label : {"z reset", "s save"}) {
+    key_button(label, out);
     ImGui::SameLine();
   }
   ImGui::PopItemWidth();
+}
+
+// A slider for each of the two loop orders, under the picture that it builds up.
+void draw_slow_motion(const Canvas& canvas, const WindowContents& contents, const Rect& box,
+                      std::vector<Command>& out) {
+  const WindowState& state = contents.state;
+  const DockWindow window("##slow", box);
+  int objects = state.objects, rows = state.rows;
+  const auto half = static_cast<float>(box.width() / 2.0 - 24 * canvas.scale());
+  ImGui::SetNextItemWidth(half);
+  bool moved = ImGui::SliderInt("##objects", &objects, 0, static_cast<int>(state.drawn->objects.size()),
+                                "for each object: %d rasterized");
+  ImGui::SameLine(static_cast<float>(box.width() / 2.0 + 4 * canvas.scale()));
+  ImGui::SetNextItemWidth(half);
+  moved =
+      ImGui::SliderInt("##rows", &rows, 0, state.scene->height, "for each pixel: %d rows traced") || moved;
+  if (moved) out.push_back([objects, rows](Session& session) { session.set_slow(objects, rows); });
 }
 
 }  // namespace sidelight

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/window/glfw_window.h"
 
+#include <array>
+#include <utility>
+
 #include "common/error.h"
 #include "viewer/window/window.h"
 
@@ -42,33 +45,18 @@ void set_title(GLFWwindow* window, const std::string& title) {
 }
 
 std::string key_name(int key, int modifiers) {
-  const std::string shift = modifiers & GLFW_MOD_SHIFT ? "Shift+" : "";
-  switch (key) {
-    case GLFW_KEY_ESCAPE:
-      return "Esc";
-    case GLFW_KEY_TAB:
-      return "Tab";
-    case GLFW_KEY_ENTER:
-      return "Enter";
-    case GLFW_KEY_HOME:
-      return "Home";
-    case GLFW_KEY_PAGE_UP:
-      return "PageUp";
-    case GLFW_KEY_PAGE_DOWN:
-      return "PageDown";
-    case GLFW_KEY_F1:
-      return "F1";
-    case GLFW_KEY_LEFT:
-      return shift + "Left";
-    case GLFW_KEY_RIGHT:
-      return shift + "Right";
-    case GLFW_KEY_UP:
-      return shift + "Up";
-    case GLFW_KEY_DOWN:
-      return shift + "Down";
-    default:
-      return {};
-  }
+  constexpr std::array kNames{
+      std::pair{GLFW_KEY_ESCAPE, "Esc"},     std::pair{GLFW_KEY_TAB, "Tab"},
+      std::pair{GLFW_KEY_ENTER, "Enter"},    std::pair{GLFW_KEY_HOME, "Home"},
+      std::pair{GLFW_KEY_PAGE_UP, "PageUp"}, std::pair{GLFW_KEY_PAGE_DOWN, "PageDown"},
+      std::pair{GLFW_KEY_F1, "F1"}};
+  constexpr std::array kArrows{std::pair{GLFW_KEY_LEFT, "Left"}, std::pair{GLFW_KEY_RIGHT, "Right"},
+                               std::pair{GLFW_KEY_UP, "Up"}, std::pair{GLFW_KEY_DOWN, "Down"}};
+  for (const auto& [known, name] : kNames)
+    if (known == key) return name;
+  for (const auto& [known, name] : kArrows)
+    if (known == key) return std::string(modifiers & GLFW_MOD_SHIFT ? "Shift+" : "") + name;
+  return {};
 }
 
 std::string character_name(unsigned character) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLFW's library and window as owners, and its keys by the names of keys.h. Only for builds that have GLFW.
+// GLFW's library and window as owners, and its keys by their names in session.h. Only for builds that have GLFW.
 #pragma once
 
 #define GLFW_INCLUDE_NONE

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "common/error.h"
 #include "viewer/window/canvas.h"
@@ -14,8 +15,6 @@
 
 namespace sidelight {
 namespace {
-
-void text(const std::string& words) { ImGui::TextUnformatted(words.data(), words.data() + words.size()); }
 
 // A paragraph a line, wrapped to the window; nothing in it can steer what is drawn.
 void paragraphs(const std::string& words) {
@@ -38,63 +37,79 @@ std::string cursor_text(const WindowContents& contents) {
   return out + fmt::format("   pixel {},{}", pixel.x, pixel.y);
 }
 
-struct LabelledAction {
+// Each presses the key that its label begins with.
+struct Button {
   const char* label;
-  Action action;
+  bool (*is_on)(const WindowState& state);
 };
-constexpr std::array<LabelledAction, 12> kButtons{{{"1 both", Action::side_by_side},
-                                                   {"2 swipe", Action::swipe},
-                                                   {"3 flip", Action::flip},
-                                                   {"4 difference", Action::difference},
-                                                   {"5 causes", Action::causes},
-                                                   {"6 ledger", Action::ledger},
-                                                   {"7 layer", Action::next_layer},
-                                                   {"9 one", Action::next_alone},
-                                                   {"o slow", Action::slow_motion},
-                                                   {"c controls", Action::controls},
-                                                   {"n lesson", Action::next_step},
-                                                   {"h help", Action::help}}};
+constexpr auto kButtons = std::to_array<Button>({
+    {"1 both", [](const WindowState& s) { return s.mode == Mode::side_by_side; }},
+    {"2 swipe", [](const WindowState& s) { return s.mode == Mode::swipe; }},
+    {"3 flip", [](const WindowState& s) { return s.mode == Mode::flip; }},
+    {"4 difference", [](const WindowState& s) { return s.mode == Mode::difference; }},
+    {"5 causes", [](const WindowState& s) { return s.mode == Mode::causes; }},
+    {"6 ledger", [](const WindowState& s) { return s.mode == Mode::ledger; }},
+    {"7 layer", [](const WindowState& s) { return layer_of(s.mode).has_value(); }},
+    {"9 one", [](const WindowState& s) { return s.mode == Mode::raster || s.mode == Mode::raytrace; }},
+    {"o slow", [](const WindowState& s) { return s.slow; }},
+    {"c controls", [](const WindowState& s) { return s.controls; }},
+    {"n lesson", [](const WindowState&) { return false; }},
+    {"h help", [](const WindowState&) { return false; }},
+});
 
-bool is_there(const WindowState& state, Action action) {
-  return action != Action::next_step || !state.opened.scene.steps.empty();
+bool is_there(const WindowState& state, const Button& button) {
+  return button.label[0] != 'n' || !state.opened.scene.steps.empty();
 }
 
-bool is_on(const WindowState& state, Action action) {
-  switch (action) {
-    case Action::side_by_side:
-      return state.mode == Mode::side_by_side;
-    case Action::swipe:
-      return state.mode == Mode::swipe;
-    case Action::flip:
-      return state.mode == Mode::flip;
-    case Action::difference:
-      return state.mode == Mode::difference;
-    case Action::causes:
-      return state.mode == Mode::causes;
-    case Action::ledger:
-      return state.mode == Mode::ledger;
-    case Action::next_layer:
-      return layer_of(state.mode).has_value();
-    case Action::next_alone:
-      return state.mode == Mode::raster || state.mode == Mode::raytrace;
-    case Action::controls:
-      return state.controls;
-    case Action::lesson:
-      return state.lesson;
-    case Action::slow_motion:
-      return state.slow;
-    default:
-      return false;
-  }
-}
-
-void button(const WindowState& state, const LabelledAction& each, std::vector<Command>& out) {
-  const bool on = is_on(state, each.action);
-  if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.26f, 0.47f, 0.72f, 1));
-  if (ImGui::Button(each.label))
-    out.push_back([action = each.action](Session& session) { session.act(action, {}); });
-  if (on) ImGui::PopStyleColor();
-}
+// The keys as people read them: those of a kind together, under a title.
+struct KeyHelp {
+  std::string_view keys, text;
+};
+struct KeyGroup {
+  std::string_view title;
+  std::span<const KeyHelp> lines;
+};
+constexpr auto kLooking = std::to_array<KeyHelp>({
+    {"1", "side by side"},
+    {"2", "swipe (drag, < >)"},
+    {"3", "flip in place"},
+    {"4", "signed difference"},
+    {"5", "causes"},
+    {"6", "ledger"},
+    {"7 8", "a layer alone"},
+    {"9", "one picture alone"},
+    {"Space", "swap the two; next term of the ledger"},
+    {"wheel + -", "zoom about the cursor"},
+    {"right drag", "move the pictures"},
+    {"0, Home", "the whole picture"},
+});
+constexpr auto kMoving = std::to_array<KeyHelp>({
+    {"drag, arrows", "orbit"},
+    {"with Shift", "slide"},
+    {"Ctrl wheel . ,", "nearer, farther"},
+    {"d D", "longer, shorter paths"},
+    {"f g r", "shadows, reflection, refraction"},
+    {"a A", "more, fewer samples"},
+    {"c", "controls"},
+    {"Tab", "arrows, Space to the next open panel"},
+    {"z", "reset"},
+    {"s", "save as a new scene"},
+});
+constexpr auto kTeaching = std::to_array<KeyHelp>({
+    {"n p", "next, previous step (PageDown, PageUp)"},
+    {"l", "lesson text"},
+    {"] [", "next, previous scene"},
+    {"click, i", "inspect a pixel"},
+    {"y", "copy as command"},
+    {"o", "slow motion"},
+    {"k j", "  more, fewer"},
+    {"t", "text size"},
+    {"h ? F1", "help"},
+    {"Esc", "back, then close"},
+    {"q", "close"},
+});
+constexpr std::array<KeyGroup, 3> kGroups{
+    {{"Look", kLooking}, {"Move and change", kMoving}, {"Teach", kTeaching}}};
 
 // What the lesson's panel says: the step, or else what the scene is about.
 std::string lesson_text(const WindowState& state) {
@@ -109,8 +124,8 @@ std::string lesson_text(const WindowState& state) {
 int button_rows(const WindowState& state, int width, double scale) {
   constexpr double kAround = 2 * 9;  // FramePadding of canvas.cpp
   std::vector<double> widths;
-  for (const LabelledAction& each : kButtons)
-    if (is_there(state, each.action))
+  for (const Button& each : kButtons)
+    if (is_there(state, each))
       widths.push_back(kAround * scale +
                        text_width_bound(std::string_view(each.label).size(), kSmallText * scale));
   return flow_rows(widths, 8 * scale, width);
@@ -125,10 +140,13 @@ void draw_buttons(const Canvas& canvas, const WindowContents& contents, const Re
     const DockWindow window("##buttons", box);
     const auto width = static_cast<float>(box.width());
     const float padding = 2 * ImGui::GetStyle().FramePadding.x;
-    for (const LabelledAction& each : kButtons) {
-      if (!is_there(contents.state, each.action)) continue;
+    for (const Button& each : kButtons) {
+      if (!is_there(contents.state, each)) continue;
       if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(each.label).x + padding > width) ImGui::NewLine();
-      button(contents.state, each, out);
+      const bool on = each.is_on(contents.state);
+      if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.26f, 0.47f, 0.72f, 1));
+      key_button(each.label, out);
+      if (on) ImGui::PopStyleColor();
       ImGui::SameLine();
     }
     const std::string where = cursor_text(contents);
@@ -164,10 +182,9 @@ void draw_lesson(const Canvas& canvas, const WindowContents& contents, const Rec
   paragraphs(lesson_text(state));
   ImGui::PopFont();
   if (state.step < 0) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
   text(fmt::format("step {} of {}{}", state.step + 1, state.opened.scene.steps.size(),
-                   state.revealed ? "" : "   predict, then press n to see"));
-  ImGui::PopStyleColor();
+                   state.revealed ? "" : "   predict, then press n to see"),
+       kQuiet);
 }
 
 void draw_help(const Canvas& canvas, const Rect& box) {
@@ -182,26 +199,19 @@ void draw_help(const Canvas& canvas, const Rect& box) {
   ImGui::PushFont(canvas.fonts().title);
   text("Keys");
   ImGui::PopFont();
-  const auto groups = key_help();
-  const float column = static_cast<float>(box.width()) / static_cast<float>(groups.size());
+  const float column = static_cast<float>(box.width()) / static_cast<float>(kGroups.size());
   const float top = ImGui::GetCursorPosY() + static_cast<float>(8 * scale);
-  for (std::size_t i = 0; i < groups.size(); ++i) {
+  for (std::size_t i = 0; i < kGroups.size(); ++i) {
     const float left = static_cast<float>(i) * column + static_cast<float>(16 * scale);
     ImGui::SetCursorPos({left, top});
     ImGui::BeginGroup();
-    ImGui::PushStyleColor(ImGuiCol_Text, kLeftAccent);
     ImGui::PushFont(canvas.fonts().caption);
-    text(std::string(groups[i].title));
-    ImGui::PopFont();
-    ImGui::PopStyleColor();
-    ImGui::PushFont(canvas.fonts().caption);
-    for (const KeyHelp& line : groups[i].lines) {
-      ImGui::PushStyleColor(ImGuiCol_Text, kRightAccent);
-      text(std::string(line.keys));
-      ImGui::PopStyleColor();
+    text(kGroups[i].title, kLeftAccent);
+    for (const KeyHelp& line : kGroups[i].lines) {
+      text(line.keys, kRightAccent);
       ImGui::SameLine(column * 0.42f);
       ImGui::PushTextWrapPos(left + column - static_cast<float>(16 * scale));
-      text(std::string(line.text));
+      text(line.text);
       ImGui::PopTextWrapPos();
     }
     ImGui::PopFont();

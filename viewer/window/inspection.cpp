@@ -19,14 +19,8 @@ glm::dvec3 to_light(const Light& light, const glm::dvec3& point) {
 }
 
 SegmentKind kind_of(RayKind kind) {
-  switch (kind) {
-    case RayKind::refracted:
-      return SegmentKind::refracted;
-    case RayKind::straight:
-      return SegmentKind::straight;
-    default:
-      return SegmentKind::mirrored;
-  }
+  if (kind == RayKind::refracted) return SegmentKind::refracted;
+  return kind == RayKind::straight ? SegmentKind::straight : SegmentKind::mirrored;
 }
 
 void add_segments(const Scene& scene, const RayRecord& ray, double far, std::vector<RaySegment>& out) {

@@ -19,8 +19,6 @@ namespace {
 
 using std::numbers::pi;
 
-void text(const std::string& words) { ImGui::TextUnformatted(words.data(), words.data() + words.size()); }
-
 // A line of words, broken at spaces only (a number stays whole), each row under the line's own beginning: the tree of
 // rays still shows.
 void wrapped_line(std::string_view line) {
@@ -142,8 +140,7 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
   column(canvas, contents.state, KeyTarget::fragments, side, heading, left);
   if (plotted) {
     ImGui::SetCursorScreenPos({top.x + side + gap, top.y});
-    if (ImGui::Button("y copy as command"))
-      out.push_back([](Session& session) { session.act(Action::copy_command, {}); });
+    key_button("y copy as command", out);
     const int x = static_cast<int>(top.x + side + gap);
     if (const std::optional<Lobe> lobe = specular_lobe(inspection))
       draw_lobe(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/window/offscreen.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <glm/common.hpp>
@@ -32,8 +33,7 @@ void check_pictures(const Image8& left, const Image8& right) {
     return 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   };
   const auto name = [](const Image8& image) {
-    return std::to_string(image.width) + "x" + std::to_string(image.height) + " (" +
-           std::to_string(image.rgb.size()) + " bytes)";
+    return fmt::format("{}x{} ({} bytes)", image.width, image.height, image.rgb.size());
   };
   const bool same = left.width == right.width && left.height == right.height;
   if (!same || left.width < 1 || left.height < 1 || left.rgb.size() != bytes(left) ||
@@ -102,15 +102,8 @@ struct DestroyOsmesa {
 using OsmesaContext = std::unique_ptr<osmesa_context, DestroyOsmesa>;
 
 OsmesaContext make_context() {
-  const int attributes[] = {OSMESA_FORMAT,
-                            OSMESA_RGBA,
-                            OSMESA_DEPTH_BITS,
-                            0,
-                            OSMESA_STENCIL_BITS,
-                            0,
-                            OSMESA_ACCUM_BITS,
-                            0,
-                            OSMESA_PROFILE,
+  // Else as OSMesa has it: RGBA, and no depth, stencil or accumulation buffer.
+  const int attributes[] = {OSMESA_PROFILE,
                             OSMESA_CORE_PROFILE,
                             OSMESA_CONTEXT_MAJOR_VERSION,
                             3,

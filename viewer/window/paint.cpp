@@ -7,7 +7,6 @@
 #include <cfloat>
 #include <cmath>
 #include <glm/common.hpp>
-#include <string_view>
 
 #include "common/error.h"
 #include "viewer/window/canvas.h"
@@ -32,6 +31,12 @@ std::string ellipsised(const ImFont& font, const std::string& text, float width)
 std::string milliseconds(double ms) { return fmt::format("{:.{}f} ms", ms, ms < 10 ? 2 : ms < 100 ? 1 : 0); }
 
 }  // namespace
+
+void text(std::string_view words, ImU32 color) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::TextUnformatted(words.data(), words.data() + words.size());
+  ImGui::PopStyleColor();
+}
 
 void draw_line(ImDrawList& list, const ImFont& font, const Rect& box, ImU32 color, const std::string& text) {
   if (box.width() <= 0 || box.height() <= 0) return;

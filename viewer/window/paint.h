@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 #include <string>
+#include <string_view>
 
 #include "viewer/window/panels.h"
 #include "viewer/window/view.h"
@@ -27,6 +28,9 @@ inline constexpr ImU32 kWarning = IM_COL32(255, 140, 105, 255);
 
 inline ImVec2 point(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
 inline ImVec2 point(glm::dvec2 p) { return point(p.x, p.y); }
+
+// Of the widget window that is being drawn.
+void text(std::string_view words, ImU32 color = kText);
 
 // One line of text, in the middle of the height of its box, clipped to it; what is too long ends in an ellipsis.
 void draw_line(ImDrawList& list, const ImFont& font, const Rect& box, ImU32 color, const std::string& text);

@@ -46,6 +46,19 @@ std::optional<Comparison> compare_pictures(const Pictures& pictures) {
   return compare(*pictures.rastered, *pictures.traced, pictures.task.scene->lights.size());
 }
 
+// The coarsest blocks first: so coarse that they are there in `kFirstMs`, by the speed seen lately.
+constexpr double kFirstMs = 8;
+constexpr int kCoarsest = 16;
+
+int first_block(const PictureTask& task, double pixels_per_ms) {
+  if (task.options.crop.width() > 0) return 1;  // a part of the picture: no coarser whole to show
+  const double pixels = static_cast<double>(task.scene->width) * task.scene->height;
+  const double affordable = std::max(1.0, kFirstMs * pixels_per_ms);
+  int block = 1;
+  while (block < kCoarsest && pixels / (block * block) > affordable) block *= 2;
+  return block;
+}
+
 }  // namespace
 
 // Lives as long as its scene is drawn: a moved camera builds nothing.
@@ -76,8 +89,8 @@ class BuiltScene {
     const PictureTask& task = out.task;
     const Camera camera = make_camera(task.camera, task.scene->width, task.scene->height, n);
     const double start = wall_ms();
-    out.rastered = std::make_shared<const Frame>(raster::render(
-        *renderers_.rasterizer, camera, options_for(task, extent, kRasterLayers, cancel)));
+    out.rastered = std::make_shared<const Frame>(
+        raster::render(*renderers_.rasterizer, camera, options_for(task, extent, kRasterLayers, cancel)));
     const double ms = wall_ms() - start;
     out.left = {raster_ms_, ms, per_second(out.rastered->pixels() * static_cast<std::uint64_t>(n * n), ms)};
     out.renderers = renderers_;
@@ -116,23 +129,6 @@ class BuiltScene {
   std::size_t objects_;
   double raster_ms_ = 0, tracer_ms_ = 0;
 };
-
-namespace {
-
-// The coarsest blocks first: so coarse that they are there in `kFirstMs`, by the speed seen lately.
-constexpr double kFirstMs = 8;
-constexpr int kCoarsest = 16;
-
-int first_block(const PictureTask& task, double pixels_per_ms) {
-  if (task.options.crop.width() > 0) return 1;  // a part of the picture: no coarser whole to show
-  const double pixels = static_cast<double>(task.scene->width) * task.scene->height;
-  const double affordable = std::max(1.0, kFirstMs * pixels_per_ms);
-  int block = 1;
-  while (block < kCoarsest && pixels / (block * block) > affordable) block *= 2;
-  return block;
-}
-
-}  // namespace
 
 Pictures render_pictures(const PictureTask& task) {
   Pictures pictures;

@@ -5,12 +5,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/scene/settings.h"
-#include "viewer/window/keys.h"
 #include "viewer/window/progressive.h"
 #include "viewer/window/state.h"
 
@@ -51,9 +51,14 @@ class Session {
   const Progressive& worker() const { return worker_; }
   bool closed() const { return closed_; }
 
-  // A key by its name (keys.h). `panel` is where the (left) picture lies. False if the key does nothing.
-  bool press(std::string_view key, const Rect& panel);
-  void act(Action action, const Rect& panel);
+  // What the keys do: a key is named by the character it types, or by its name: "Space", "PageDown", "Shift+Left".
+  struct Key {
+    std::string_view name;
+    void (*press)(Session& session, const Rect& panel);
+  };
+  static std::span<const Key> keys();
+  // `panel` is where the (left) picture lies. False if the key does nothing.
+  bool press(std::string_view key, const Rect& panel = {});
 
   // The mouse, in device pixels: what a drag by `by` does to the camera or the pictures.
   void drag_orbit(glm::dvec2 by, const Rect& panel);
@@ -95,10 +100,19 @@ class Session {
   void save();
   void escape();
   void next_panel();
+  void next_text_size();
   void choose_layer(int by);
+  void choose_alone();
   void swap_or_advance();
+  void inspect_cursor();
+  void toggle_slow();
   void step_slow(int by);
+  void switch_ray(bool TraceSettings::*flag);
+  void change_depth(int by);
+  void show_whole(const Rect& panel);
   void zoom(int steps, const Rect& panel);
+  void turn(double around, double over);
+  void shift(double right, double up);
   void move_camera(const CameraSettings& camera);
   bool try_to(const std::function<void()>& change);
   void note_files();

@@ -30,15 +30,8 @@ std::filesystem::path free_name(const std::filesystem::path& file) {
 
 Settings settings_shown(const WindowState& state) {
   Settings settings = step_settings(state);
-  Scene shown;  // of what settings are made of, without the objects
-  shown.background = state.scene->background;
-  shown.ambient = state.scene->ambient;
-  shown.width = state.scene->width;
-  shown.height = state.scene->height;
+  Scene shown = *state.scene;
   shown.camera = state.camera;
-  shown.trace = state.scene->trace;
-  shown.lights = state.scene->lights;
-  shown.materials = state.scene->materials;
   const Settings changes = settings_between(load_scene_with(state.file, settings), shown);
   settings.insert(settings.end(), changes.begin(), changes.end());
   return settings;

@@ -69,7 +69,11 @@ void keep_changes(WindowState& state, const WindowState& before) {
   use_changed(state, std::move(scene));
 }
 
-bool inside(const Scene& scene, glm::ivec2 pixel) { return pixel.x < scene.width && pixel.y < scene.height; }
+// A picture may have become smaller.
+void keep_inspected_inside(WindowState& state) {
+  const auto& pixel = state.inspected;
+  if (pixel && (pixel->x >= state.scene->width || pixel->y >= state.scene->height)) state.inspected.reset();
+}
 
 }  // namespace
 
@@ -97,7 +101,7 @@ void reveal_step(WindowState& state, int number, const SceneOpener& open) {
   state.lesson = true;
   if (const auto mode = find_mode(step.mode)) state.mode = *mode;
   state.ledger_term = 0;
-  if (state.inspected && !inside(*state.scene, *state.inspected)) state.inspected.reset();
+  keep_inspected_inside(state);
 }
 
 Session::Session(WindowState state, SceneOpener open, std::function<void()> notify)
@@ -141,7 +145,7 @@ void Session::reset() {
   start_over(state_);
   state_.step = -1;
   state_.revealed = false;
-  if (state_.inspected && !inside(*state_.scene, *state_.inspected)) state_.inspected.reset();
+  keep_inspected_inside(state_);
   state_.notice = {};
   redraw();
 }
@@ -195,7 +199,7 @@ bool Session::watch() {
     state_.mode = before.mode;
     state_.ledger_term = before.ledger_term;
     keep_changes(state_, before);
-    if (state_.inspected && !inside(*state_.scene, *state_.inspected)) state_.inspected.reset();
+    keep_inspected_inside(state_);
     state_.notice = {};
   });
   if (!loaded) return true;

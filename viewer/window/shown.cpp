@@ -35,38 +35,22 @@ std::function<Lines(glm::ivec2)> numbers_of(SharedFrame frame, bool full,
 }
 
 Lines layer_lines(const Frame& frame, Layer layer, std::size_t i) {
-  switch (layer) {
-    case Layer::depth:
-      return {fmt::format("{:.5g}", frame.depth[i])};
-    case Layer::object:
-      return {fmt::format("{}", frame.object_id[i])};
-    case Layer::primitive:
-      return {fmt::format("{}", frame.primitive_id[i])};
-    case Layer::normal:
-      return number_lines(frame.normal[i]);
-    case Layer::cost:
-      return {fmt::format("{:.0f}", frame.cost[i])};
-    default:
-      return number_lines(frame.layer(layer)[i]);
-  }
+  if (layer == Layer::depth) return {fmt::format("{:.5g}", frame.depth[i])};
+  if (layer == Layer::object) return {fmt::format("{}", frame.object_id[i])};
+  if (layer == Layer::primitive) return {fmt::format("{}", frame.primitive_id[i])};
+  if (layer == Layer::normal) return number_lines(frame.normal[i]);
+  if (layer == Layer::cost) return {fmt::format("{:.0f}", frame.cost[i])};
+  return number_lines(frame.layer(layer)[i]);
 }
 
 // Whether the layer has been made yet: all are only in finished pictures.
 bool has_layer(const Frame& frame, Layer layer) {
-  switch (layer) {
-    case Layer::depth:
-      return !frame.depth.empty();
-    case Layer::object:
-      return !frame.object_id.empty();
-    case Layer::primitive:
-      return !frame.primitive_id.empty();
-    case Layer::normal:
-      return !frame.normal.empty();
-    case Layer::cost:
-      return !frame.cost.empty();
-    default:
-      return !frame.layer(layer).empty();
-  }
+  if (layer == Layer::depth) return !frame.depth.empty();
+  if (layer == Layer::object) return !frame.object_id.empty();
+  if (layer == Layer::primitive) return !frame.primitive_id.empty();
+  if (layer == Layer::normal) return !frame.normal.empty();
+  if (layer == Layer::cost) return !frame.cost.empty();
+  return !frame.layer(layer).empty();
 }
 
 Image8 picture_of(const Frame& frame, Colors colors) {

@@ -28,18 +28,9 @@ std::string window_title(const WindowState& state) {
 }
 
 bool is_open(const WindowState& state, KeyTarget target) {
-  switch (target) {
-    case KeyTarget::pictures:
-      return true;
-    case KeyTarget::controls:
-      return state.controls;
-    case KeyTarget::fragments:
-    case KeyTarget::rays:
-      return state.inspected.has_value();
-    case KeyTarget::lesson:
-      return state.lesson;
-  }
-  return false;
+  if (target == KeyTarget::controls) return state.controls;
+  if (target == KeyTarget::lesson) return state.lesson;
+  return target == KeyTarget::pictures || state.inspected;
 }
 
 KeyTarget key_target(const WindowState& state) {

@@ -157,8 +157,7 @@ class SessionWindow {
       pressed_at_ = cursor_;
       dragged_ = false;
     } else if (!down) {
-      if (which == held_ && left && !dragged_ && session_.state().cursor)
-        session_.act(Action::inspect, panel());
+      if (which == held_ && left && !dragged_ && session_.state().cursor) session_.press("i", panel());
       if (left) widget_button_ = false;
       held_ = -1;
     }

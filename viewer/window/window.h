@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The window of `sidelight view` on a screen: here are only GLFW, its events and its frames. What they do is the
-// session's (session.h), what is drawn is window_panels.h's, which keys there are says keys.h.
+// session's (session.h), what is drawn is window_panels.h's, what the keys do is in session_keys.cpp.
 #pragma once
 
 #include <stdexcept>

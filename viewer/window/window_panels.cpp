@@ -17,19 +17,8 @@ namespace {
 bool empty(const Rect& box) { return box.width() <= 0 || box.height() <= 0; }
 
 bool one_panel(const WindowState& state) {
-  switch (state.mode) {
-    case Mode::raster:
-    case Mode::raytrace:
-    case Mode::swipe:
-    case Mode::flip:
-    case Mode::difference:
-    case Mode::causes:
-      return true;
-    default:
-      break;
-  }
-  const auto layer = layer_of(state.mode);
-  return layer && !both_make(*layer);
+  if (const auto layer = layer_of(state.mode)) return !both_make(*layer);
+  return state.mode != Mode::side_by_side && state.mode != Mode::ledger;
 }
 
 Rect left_of(const Rect& panel, int x) {
@@ -227,6 +216,11 @@ void follow_keys(const WindowState& state, KeyTarget target) {
   const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
   list.AddRect(low, {low.x + size.x, low.y + size.y}, kText, 4, 0, 3);
+}
+
+void key_button(const char* label, std::vector<Command>& out) {
+  if (ImGui::Button(label))
+    out.push_back([key = std::string_view(label, 1)](Session& session) { session.press(key); });
 }
 
 DockWindow::DockWindow(const char* name, const Rect& box, bool scrollbar) {

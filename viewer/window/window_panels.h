@@ -71,6 +71,9 @@ std::uint32_t segment_color(SegmentKind kind);
 // Within a widget window: it has the keyboard, and says so by its frame, if keys go to `target`.
 void follow_keys(const WindowState& state, KeyTarget target);
 
+// A button that presses the key its label begins with.
+void key_button(const char* label, std::vector<Command>& out);
+
 // A widget window without decoration, but a scrollbar if wanted, exactly in `box`, while it lives.
 class DockWindow {
  public:

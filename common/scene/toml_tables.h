@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of a scene file that put objects into the scene: [[sphere]], [[plane]] and [[mesh]], the last as an OBJ
-// file, written out, or as a generated shape, with its transform. Called by toml.cpp in the order of the file.
+// The tables of a scene file, as toml.cpp calls for them: toml_objects.cpp reads those that put objects into the scene, in
+// the order of the file, toml_parts.cpp the others. InputError for every mistake.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/build.h"
 #include "common/scene/scene.h"
 #include "common/scene/toml_values.h"
 
@@ -38,9 +39,21 @@ struct ObjectSink {
   std::vector<std::string> files_read{};  // OBJ and MTL files, in order
 };
 
-// Each adds the one object of `table`. InputError for every mistake.
+void read_picture(const Value& value, Scene& scene);
+void read_camera(const Value& value, CameraSettings& camera);
+void read_trace(const Value& value, TraceSettings& trace);
+Light read_light(const Document& document, const toml::table& source);
+
+// All of [material], into the scene in the order of the file; their numbers by name.
+MaterialNames read_materials(const Value& value, Scene& scene);
+
+// Each adds the one object of `table`; a mesh is an OBJ file, written out, or a generated shape.
 void read_sphere(ObjectSink& sink, const toml::table& table);
 void read_plane(ObjectSink& sink, const toml::table& table);
 void read_mesh(ObjectSink& sink, const toml::table& table);
+
+// The `transform` of a mesh: T Rz Ry Rx S of `translate`, `rotate` (degrees) and `scale`, or `matrix`, 16 numbers row by
+// row. Quarter turns are exact.
+Transform read_transform(const Value& value);
 
 }  // namespace sidelight::scene_file
