@@ -3,6 +3,10 @@
 //
 // Two codes are not here. 1 (the two pictures do not agree) is a fault of the program and nothing that a user could
 // ask for: tests/planted_faults.sh puts such faults into the source and sees the code. 4 belongs to the verb diff.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
 #include <regex>
 
 #include "common/math/isa.h"
@@ -247,6 +251,15 @@ TEST_CASE("exit code 3: with faults on purpose, compare counts the memory of thr
   const double one_pair = gigabytes({});
   // Printed to a tenth: 0.05 of our own and three times 0.05.
   CHECK(std::abs(gigabytes({"--snap-bits", "4"}) - 3 * one_pair) < 0.21);
+}
+
+// A bare picture of this size takes a third of what may be used; finished, more than five times all of it.
+TEST_CASE("exit code 3: the window counts the memory of its finished pictures") {
+  const double machine =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const int edge = std::min(65535, static_cast<int>(std::sqrt(0.8 * machine / 72)));
+  const std::string size = std::to_string(edge) + "x" + std::to_string(edge);
+  check_refused({"view", "good.toml", "--screenshot", "a.png", "-r", size}, 3, size);
 }
 
 TEST_CASE("exit code 5: light beyond what float holds is reported with its pixel and not written") {

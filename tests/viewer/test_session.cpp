@@ -258,27 +258,6 @@ TEST_CASE("session: Escape closes what is open, the window last") {
   CHECK(session.closed());
 }
 
-TEST_CASE("session: more samples than the keys reach are never made fewer by the key for more") {
-  const Workplace here;
-  const std::string file = here / "good.toml";
-  const SceneOpener few = opener(48, 36);
-  Session session(open_state(file, few), few);
-  session.set_samples_per_edge(9);
-  CHECK(session.state().n == 8);
-  const SceneOpener with_many = [&](const std::string& name, const Settings& set) {
-    OpenedScene opened = few(name, set);
-    opened.n = 16;
-    return opened;
-  };
-  Session many(open_state(file, with_many), with_many);
-  many.press("a", kPanel);
-  CHECK(many.state().n == 16);
-  many.press("A", kPanel);
-  CHECK(many.state().n == 15);
-  for (int i = 0; i < 9; ++i) many.press("D", kPanel);
-  CHECK(many.state().scene->trace.depth == 1);
-}
-
 TEST_CASE("session: a pixel that a step's larger picture had is let go with the step") {
   const Workplace here;
   write_bytes(here / "steps.toml", kGoodScene + "[picture]\nsize = [48, 36]\n[[step]]\ntext = 'larger'\n" +

@@ -96,3 +96,29 @@ TEST_CASE("session: a saved file keeps the step that is shown and the mode, as l
   CHECK(session.state().step == -1);
   CHECK_FALSE(session.state().revealed);
 }
+
+TEST_CASE("session: keys add samples as far as memory holds them, and never make more of them fewer") {
+  const Open scene;
+  const auto opens_with = [](int OpenedScene::*field, int value) -> SceneOpener {
+    return [=](const std::string& name, const Settings& set) {
+      OpenedScene opened = open_small(name, set);
+      opened.*field = value;
+      return opened;
+    };
+  };
+  const SceneOpener in_little_memory = opens_with(&OpenedScene::most_n, 2);
+  const SceneOpener with_many = opens_with(&OpenedScene::n, 16);
+  Session session(open_state(scene.file, open_small), open_small);
+  session.set_samples_per_edge(9);
+  CHECK(session.state().n == 8);
+  Session little(open_state(scene.file, in_little_memory), in_little_memory);
+  for (int i = 0; i < 3; ++i) little.press("a", kPanel);
+  CHECK(little.state().n == 2);
+  Session many(open_state(scene.file, with_many), with_many);
+  many.press("a", kPanel);
+  CHECK(many.state().n == 16);
+  many.press("A", kPanel);
+  CHECK(many.state().n == 15);
+  for (int i = 0; i < 9; ++i) many.press("D", kPanel);
+  CHECK(many.state().scene->trace.depth == 1);
+}

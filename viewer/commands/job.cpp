@@ -88,6 +88,13 @@ void apply_faults(const JobFlags& flags, Job& job) {
   job.scene = tessellated(job.scene, *faults.tessellate);
 }
 
+double needed_bytes(const Scene& scene, int n, const RenderOptions& options, int pairs) {
+  return pairs * static_cast<double>(frame_bytes(scene.width, scene.height, n, options));
+}
+double machine_bytes() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
 }  // namespace
 
 glm::ivec2 parse_size(const std::string& text, const char* flag, int longest) {
@@ -182,17 +189,19 @@ Job load_job(const JobFlags& flags, const Settings& set) {
 void check_memory(const Job& job, int pairs) { check_memory(job.scene, job.camera.n, job.options, pairs); }
 
 void check_memory(const Scene& scene, int n, const RenderOptions& options, int pairs) {
-  const double needed = pairs * static_cast<double>(frame_bytes(scene.width, scene.height, n, options));
-  const double machine =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  // Lattice coordinates are ints, with room for 2nW.
-  const bool too_fine = std::max(scene.width, scene.height) > 500'000'000 / n;
-  if (needed > 0.8 * machine || too_fine)
+  if (!fits_memory(scene, n, options, pairs))
     throw InputError(
         {scene.file, 0, 0},
         fmt::format(
             "a picture of {}x{} with {} samples per pixel needs {:.1f} GB; this machine has {:.1f} GB",
-            scene.width, scene.height, n * n, needed / 1e9, machine / 1e9));
+            scene.width, scene.height, n * n, needed_bytes(scene, n, options, pairs) / 1e9,
+            machine_bytes() / 1e9));
+}
+
+bool fits_memory(const Scene& scene, int n, const RenderOptions& options, int pairs) {
+  // Lattice coordinates are ints, with room for 2nW.
+  const bool too_fine = std::max(scene.width, scene.height) > 500'000'000 / n;
+  return !too_fine && needed_bytes(scene, n, options, pairs) <= 0.8 * machine_bytes();
 }
 
 Metadata job_metadata(const Job& job, const std::string& renderer) {

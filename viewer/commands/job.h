@@ -72,8 +72,9 @@ Job load_job(const JobFlags& flags, const Settings& set = {});
 // Refuses, before anything is allocated, what the machine's memory cannot hold: an InputError that names the size.
 // Counts `pairs` times two frames with the job's options: both pictures, or one and its file.
 void check_memory(const Job& job, int pairs = 1);
-// The same for n x n samples a pixel of a scene as it stands.
+// The same for n x n samples a pixel of a scene as it stands; and whether it would refuse.
 void check_memory(const Scene& scene, int n, const RenderOptions& options, int pairs = 1);
+bool fits_memory(const Scene& scene, int n, const RenderOptions& options, int pairs = 1);
 
 // The settings of the job, for a picture's metadata: scene, hash, size, samples, depth, switches, version.
 Metadata job_metadata(const Job& job, const std::string& renderer);

@@ -31,7 +31,12 @@ OpenedScene open_scene(const JobFlags& flags, const std::string& file, const Set
   opened.n = job.camera.n;
   opened.options = job.options;
   opened.times = !flags.no_times;
-  check_memory(job);
+  // A finished picture has all layers and keeps its samples, and the one before it is shown until then.
+  RenderOptions finished = job.options;
+  finished.layers = kAllLayers;
+  finished.keep_samples = true;
+  check_memory(job.scene, opened.n, finished, 2);
+  while (opened.most_n > opened.n && !fits_memory(job.scene, opened.most_n, finished, 2)) --opened.most_n;
   opened.scene = std::move(job.scene);
   opened.files = std::move(job.files);
   return opened;

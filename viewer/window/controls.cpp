@@ -52,7 +52,7 @@ void draw_trace(const WindowState& state, Commands& out) {
   if (changed) edit(out, [trace](Scene& scene) { scene.trace = trace; });
 
   int n = state.n;
-  if (ImGui::SliderInt("samples", &n, 1, 8, "%d squared"))
+  if (ImGui::SliderInt("samples", &n, 1, state.opened.most_n, "%d squared"))
     out.push_back([n](Session& session) { session.set_samples_per_edge(n); });
 }
 

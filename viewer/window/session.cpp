@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kDolly = 0.9;     // a step: a factor
 constexpr double kDragTurn = 4.0;  // radians for a drag over the panel's height
-constexpr int kMostSamples = 8;    // per pixel edge, by keys and controls; a command line may begin with more
 
 glm::dvec2 middle(const Rect& panel) { return {(panel.x0 + panel.x1) / 2.0, (panel.y0 + panel.y1) / 2.0}; }
 double height(const Rect& panel) { return std::max(1, panel.height()); }
@@ -128,7 +127,7 @@ void Session::change_depth(int by) {
 }
 
 void Session::set_samples_per_edge(int n) {
-  const int wanted = std::clamp(n, 1, std::max(kMostSamples, state_.n));
+  const int wanted = std::clamp(n, 1, std::max(state_.opened.most_n, state_.n));
   if (wanted == state_.n) return;
   state_.n = wanted;
   redraw();

@@ -23,6 +23,7 @@ struct OpenedScene {
   std::vector<std::string> files;  // it was read from: its own, then those of its meshes
   Faults faults;
   int n = 1;              // samples per pixel edge
+  int most_n = 8;         // so many keys and controls go to, or as many as memory holds
   RenderOptions options;  // threads, isa, crop
   bool times = true;      // show how long the pictures took
 };
