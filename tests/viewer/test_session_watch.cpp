@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The window's session beside an editor: files that are saved under it.
+// The window's session and the files that it opens: saved under it, and with how many samples they may be drawn.
 #include "tests/viewer/session.h"
 
 using namespace sidelight;
