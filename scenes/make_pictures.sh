@@ -17,7 +17,7 @@ differ, NAME-causes.png. The same program makes the same bytes.
 END
 }
 
-root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
+root="$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)"
 out="$root/scenes/pictures"
 source "$root/scenes/picture_options.sh"
 if ((${#names[@]} == 0)); then

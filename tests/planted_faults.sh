@@ -10,7 +10,7 @@
 # not of the libraries that faults are put into, the program `sidelight` but for them, is taken from build/release.
 set -euo pipefail
 
-root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
+root="$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)"
 work="$root/build/planted_faults"
 tree="$work/tree"
 objects="$work/objects"

@@ -6,7 +6,7 @@
 set -euo pipefail
 
 seconds="${1:-20}"
-root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)"
+root="$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.." && pwd)"
 build="$root/build/fuzz"
 
 cd -- "$root"

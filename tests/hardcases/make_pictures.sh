@@ -17,7 +17,7 @@ NAME-usual.png, and what sidelight shows, NAME-right.png. The same program makes
 END
 }
 
-root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)"
+root="$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.." && pwd)"
 out="$root/tests/hardcases/pictures"
 source "$root/scenes/picture_options.sh"
 if ((${#names[@]} == 0)); then
