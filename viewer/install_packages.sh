@@ -32,6 +32,7 @@ as_root=()
 if ((EUID != 0)); then
   command -v sudo >/dev/null || fail "packages are missing, and installing them needs root"
   as_root=(sudo)
+  sudo env true || fail "packages are missing, and sudo refuses"   # once, not at each step below
 fi
 
 echo "installing ${#missing[@]} Debian packages: ${missing[*]}" >&2
