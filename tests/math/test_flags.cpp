@@ -31,17 +31,17 @@ namespace {
 
 constexpr int kPairs = 10000;
 
-// What a compiler that may contract turns into fused operations; noipa: it may not see the arguments. Once as this
+// What a compiler that may contract turns into fused operations; noinline: it may not see the arguments. Once as this
 // file is compiled, and once as in files compiled with -mfma, where the machine has such operations.
 template <class T>
 struct Plain {
-  [[gnu::noipa]] static T minus_product(T a, T b, T c) { return a * b - c; }
-  [[gnu::noipa]] static T edge(T a, T b, T c, T d) { return a * b - c * d; }
+  [[gnu::noinline]] static T minus_product(T a, T b, T c) { return a * b - c; }
+  [[gnu::noinline]] static T edge(T a, T b, T c, T d) { return a * b - c * d; }
 };
 template <class T>
 struct WithFma {
-  [[gnu::noipa, gnu::target("avx2,fma")]] static T minus_product(T a, T b, T c) { return a * b - c; }
-  [[gnu::noipa, gnu::target("avx2,fma")]] static T edge(T a, T b, T c, T d) { return a * b - c * d; }
+  [[gnu::noinline, gnu::target("avx2,fma")]] static T minus_product(T a, T b, T c) { return a * b - c; }
+  [[gnu::noinline, gnu::target("avx2,fma")]] static T edge(T a, T b, T c, T d) { return a * b - c * d; }
 };
 
 // With rounded products a·b - fl(a·b) is 0 and E(a,b) = -E(b,a); a fused form leaves a product's rounding error.
