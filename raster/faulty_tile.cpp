@@ -48,7 +48,7 @@ bool FaultyTile::wins(const Hit& hit, const Hit& nearest) const {
 
 void FaultyTile::draw(const Scene& scene, std::uint32_t primitive, VisibilityCounts& counts) {
   const SampleBox box = intersection(box_of_primitive(scene, camera_, primitive), box_);
-  const Hit start{stored_.nearest(), kNone};
+  const Hit start{std::nextafter(stored_.nearest(), 0.0), kNone};  // what lies on the near plane counts
   for (int Y = box.y0; Y < box.y1; ++Y)
     for (int X = box.x0; X < box.x1; ++X) {
       const Ray ray{camera_.eye, camera_.direction(X, Y)};

@@ -2,11 +2,13 @@
 // Faults on purpose in both renderers: each spoils what it should and nothing where theory says so, and off is off.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "common/scene/tessellate.h"
 #include "common/scene/toml.h"
+#include "raster/faulty_tile.h"
 #include "tests/agreement/pictures.h"
 #include "tests/support/scenes.h"
 
@@ -100,6 +102,43 @@ TEST_CASE("faults: depth formats fight, a reversed float does not") {
   CHECK(z_fighting(DepthFormat::unorm16, 5, 1e4) < worst / 2);
   CHECK(z_fighting(DepthFormat::unorm24, 5, 1e4) == 0);
   CHECK(z_fighting(DepthFormat::reversed, 0.01, 1e4) == 0);
+}
+
+TEST_CASE("faults: between planes at 1 and 3 a depth format stores 3 (z - 1) / 2 z, or the reverse") {
+  const Camera camera = plain_camera(64, 64);
+  const auto stored = [&](DepthFormat format, double z) {
+    Faults faults;
+    faults.depth_format = format;
+    faults.near_plane = 1;
+    faults.far_plane = 3;
+    return raster::StoredDepth(faults, camera).key(z / camera.depth_scale());
+  };
+  for (const DepthFormat format : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::float32})
+    CHECK(stored(format, 1) == 0);
+  CHECK(stored(DepthFormat::unorm16, 1.5) == 0x8000);  // 65535 / 2, to the nearest
+  CHECK(stored(DepthFormat::unorm24, 1.5) == 0x800000);
+  CHECK(stored(DepthFormat::float32, 1.5) == 0.5);
+  CHECK(stored(DepthFormat::float32, 1.25) == double{0.3f});
+  CHECK(stored(DepthFormat::unorm16, 3) == 0xFFFF);
+  CHECK(stored(DepthFormat::reversed, 1) == -1);
+  CHECK(stored(DepthFormat::reversed, 1.5) == -0.5);
+  CHECK(stored(DepthFormat::reversed, 3) == 0);
+}
+
+TEST_CASE("faults: what lies on the near or the far plane is between them") {
+  Faults faults;
+  faults.depth_format = DepthFormat::float32;
+  const Scene wall = test::scene_of(Plane{{0, 0, -12}, {0, 0, 1}, 0});
+  const auto is_seen = [&](double near, double far) {
+    faults.near_plane = near;
+    faults.far_plane = far;
+    const Frame frame = rastered(wall, plain_camera(16, 16), with(faults, kRasterLayers));
+    return std::all_of(frame.depth.begin(), frame.depth.end(), [](float depth) { return depth == 12; });
+  };
+  CHECK(is_seen(12, 20));
+  CHECK(is_seen(4, 12));
+  CHECK_FALSE(is_seen(std::nextafter(12.0, 20.0), 20));
+  CHECK_FALSE(is_seen(4, std::nextafter(12.0, 4.0)));
 }
 
 TEST_CASE("faults: the near and the far plane cut") {
