@@ -10,6 +10,7 @@
 #include "common/model/shading.h"
 #include "common/scene/build.h"
 #include "tests/support/random.h"
+#include "tests/support/scenes.h"
 #include "tests/tier.h"
 
 using namespace sidelight;
@@ -213,6 +214,22 @@ TEST_CASE("shading lengths are scaled by a power of two, which light and attenua
     CHECK(std::abs(light_term<float>(point, tables.lights[0]).diffuse.x - expected) <=
           8 * 0x1p-24 * expected);
   }
+}
+
+TEST_CASE("the scale of lengths is that of what reaches farthest, whatever it is") {
+  const auto scale_of = [](const auto& put) {
+    Scene scene;
+    add_material(scene, {});
+    scene.camera.eye = glm::dvec3(0, 1, 0);
+    put(scene);
+    return make_shading_tables(scene, needs_of(scene)).length_scale;
+  };
+  CHECK(scale_of([](Scene&) {}) == 1);
+  CHECK(scale_of([](Scene& scene) { scene.camera.eye.z = -1000; }) == 0x1p-9);
+  CHECK(scale_of([](Scene& scene) { scene.positions.emplace_back(0, -1000, 0); }) == 0x1p-9);
+  CHECK(scale_of([](Scene& scene) { scene.spheres.push_back({{0, -500, 0}, 500, 0}); }) == 0x1p-9);
+  CHECK(scale_of([](Scene& scene) { scene.planes.push_back({{-1000, 0, 0}, {0, 1, 0}, 0}); }) == 0x1p-9);
+  CHECK(scale_of([](Scene& scene) { scene.lights.push_back(lamp({0, 0, 1000}, 1)); }) == 0x1p-9);
 }
 
 // A float holds 24 bits of a coordinate, the float that is left of it 24 more. (Compiled with GCC 12's vectorizer of
