@@ -13,8 +13,8 @@ bool machine_has(Isa isa) {
       return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     case Isa::avx512:
 #ifdef __clang__
-      // The std::experimental::simd of GCC 12 has clang take all lanes of AVX-512 or none where a mask says which: wrong
-      // pictures (_S_blend_avx512, "FIXME: this does a boolean choice, not a blend").
+      // In the std::experimental::simd of GCC 12, _S_blend_avx512 lets clang take all lanes or none where a mask says
+      // which: wrong pictures.
       return false;
 #else
       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&

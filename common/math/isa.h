@@ -9,6 +9,7 @@ namespace sidelight {
 
 enum class Isa { scalar, avx2, avx512 };
 
+// Whether this machine has it, and this build may use it: one by clang does without avx512.
 bool machine_has(Isa isa);
 // The widest one this machine has; the environment variable SIDELIGHT_ISA, read once, may name a narrower one, so that
 // a whole test suite can run on it. Any other value of it is ignored.

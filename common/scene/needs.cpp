@@ -50,7 +50,10 @@ bool any_solids_meet(const Scene& scene) {
   for (const Object& object : scene.objects)
     if (object.solid) solids.push_back(bounds_of(scene, object));
   bool any = false;
-  visit_meeting(solids, [&](std::size_t, std::size_t) { return !(any = true); });
+  visit_meeting(solids, [&](std::size_t, std::size_t) {
+    any = true;
+    return false;
+  });
   return any;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <iterator>
 #include <map>
 #include <span>
 
@@ -112,18 +113,19 @@ void add_pair_limits(const Scene& scene, const std::vector<std::uint32_t>& solid
   constexpr std::size_t kNamed = 20;
   std::vector<Bounds> boxes;
   for (const std::uint32_t solid : solids) boxes.push_back(bounds_of(scene, scene.objects[solid]));
-  std::map<std::array<std::size_t, 2>, Relation>
-      named;  // of the later one and the one before it, the first in the file
+  // Of the later one and the one before it: the first in the file.
+  std::map<std::array<std::size_t, 2>, Relation> named;
   std::size_t pairs = 0;
   visit_meeting(boxes, [&](std::size_t i, std::size_t j) {
-    const auto [b, a] = std::minmax(i, j);
-    const Object &later = scene.objects[solids[a]], &before = scene.objects[solids[b]];
-    const Relation lies = relation(scene, later, boxes[a], before, boxes[b]);
+    const std::size_t first = std::min(i, j), second = std::max(i, j);
+    const Object &later = scene.objects[solids[second]], &before = scene.objects[solids[first]];
+    const Relation lies = relation(scene, later, boxes[second], before, boxes[first]);
     const Material& material = scene.materials[primitive_material(scene, later.first_primitive)];
-    const bool mirrors_all = later.ior < before.ior && material.reflect + material.refract != dvec3(1);
-    if (lies == Relation::apart || (lies == Relation::inside && !mirrors_all)) return true;
+    // Only then can its outside reflect totally, and with another weight than POV-Ray's.
+    const bool told_apart = later.ior < before.ior && material.reflect + material.refract != dvec3(1);
+    if (lies == Relation::apart || (lies == Relation::inside && !told_apart)) return true;
     ++pairs;
-    named[{a, b}] = lies;
+    named[{second, first}] = lies;
     if (named.size() > kNamed) named.erase(std::prev(named.end()));
     return true;
   });
