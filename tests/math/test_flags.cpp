@@ -50,7 +50,7 @@ void check_products(const std::string& what) {
   std::mt19937 random(1);
   std::uniform_real_distribution<T> uniform(-1, 1);
   int residues = 0, asymmetries = 0;
-  int telling = 0;   // pairs whose product does round: those on which a fused form shows
+  int telling = 0;  // pairs whose product does round: those on which a fused form shows
   for (int i = 0; i < kPairs; ++i) {
     const T a = uniform(random), b = uniform(random), c = uniform(random), d = uniform(random);
     const volatile T product = a * b;
@@ -85,9 +85,8 @@ TEST_SUITE("math") {
     CHECK(std::fegetround() == FE_TONEAREST);
     CHECK_FALSE(flushes_denormals());
     std::atomic<int> wrong = 0;
-    sidelight::parallel_for(64, 4, [&](int, int) {
-      wrong += std::fegetround() != FE_TONEAREST || flushes_denormals();
-    });
+    sidelight::parallel_for(
+        64, 4, [&](int, int) { wrong += std::fegetround() != FE_TONEAREST || flushes_denormals(); });
     CHECK(wrong == 0);
 
     volatile double smallest = std::numeric_limits<double>::min();
@@ -103,14 +102,15 @@ TEST_SUITE("math") {
       INFO(command);
       const std::size_t off = command.rfind(" -ffp-contract=off ");
       REQUIRE(off != std::string::npos);
-      CHECK(command.rfind(" -ffp-contract=") == off);   // the last one counts
+      CHECK(command.rfind(" -ffp-contract=") == off);  // the last one counts
       const std::size_t no_fast_math = command.rfind(" -fno-fast-math ");
       REQUIRE(no_fast_math != std::string::npos);
 #if defined(__GNUC__) && !defined(__clang__)
       CHECK(command.find(" -fno-tree-slp-vectorize ") != std::string::npos);
 #endif
-      for (const char* flag : {" -ffast-math ", " -Ofast ", " -funsafe-math-optimizations ", " -ffinite-math-only ",
-                               " -fassociative-math ", " -freciprocal-math ", " -march=native "})
+      for (const char* flag :
+           {" -ffast-math ", " -Ofast ", " -funsafe-math-optimizations ", " -ffinite-math-only ",
+            " -fassociative-math ", " -freciprocal-math ", " -march=native "})
         CHECK(command.find(flag) == std::string::npos);
       ++files;
     }
