@@ -30,7 +30,7 @@ Scene lit_scene(const CameraSettings& camera) {
   return scene;
 }
 
-void add(Scene& scene, PolygonMesh mesh, std::uint32_t material) {
+void add_smooth(Scene& scene, PolygonMesh mesh, std::uint32_t material) {
   for (PolygonMesh::Face& face : mesh.faces) face.material = material;
   add_mesh(scene, smoothed(std::move(mesh)), {}, {});
 }
@@ -39,8 +39,8 @@ Scene spheres() {
   CameraSettings camera = test::any_way();
   camera.view_height = 1.2;  // with some background too
   Scene scene = lit_scene(camera);
-  for (const PolygonMesh& sphere : test::ten_spheres(33, 64)) add(scene, sphere, 0);
-  add(scene, test::ground(), 1);
+  for (const PolygonMesh& sphere : test::ten_spheres(33, 64)) add_smooth(scene, sphere, 0);
+  add_smooth(scene, test::ground(), 1);
   return scene;
 }
 
@@ -50,7 +50,7 @@ Scene scan(const PolygonMesh& mesh, double view_height) {
   camera.look_at = {0, 1, 2};
   camera.view_height = view_height;
   Scene scene = lit_scene(camera);
-  add(scene, test::fitted(mesh), 0);
+  add_smooth(scene, test::fitted(mesh), 0);
   return scene;
 }
 
@@ -70,8 +70,8 @@ Scene full_screen_layers(bool front_to_back) {
     const int layer = front_to_back ? i : kLayers - 1 - i;
     const double y = test::snapped(1.25 * 0.25 * (5 + layer)), x = 2 * y;
     const double z = -layer;
-    add(scene, test::mesh_of({{-x, -y, z}, {x, -y, z}, {x, y, z}, {-x, y, z}}, {{0, 1, 2}, {0, 2, 3}}),
-        static_cast<std::uint32_t>(layer % 2));
+    add_smooth(scene, test::mesh_of({{-x, -y, z}, {x, -y, z}, {x, y, z}, {-x, y, z}}, {{0, 1, 2}, {0, 2, 3}}),
+               static_cast<std::uint32_t>(layer % 2));
   }
   return scene;
 }
@@ -93,7 +93,7 @@ Scene sub_pixel() {
       faces.push_back({a, b + 1, b});
     }
   Scene scene = lit_scene(straight_ahead(0));
-  add(scene, test::mesh_of(positions, faces), 0);
+  add_smooth(scene, test::mesh_of(positions, faces), 0);
   return scene;
 }
 

@@ -9,7 +9,7 @@ namespace sidelight {
 namespace {
 
 // Both pictures of a scene with some faults.
-struct Pictures {
+struct BothPictures {
   const Scene& scene;
   const Faults& faults;
   const Frame &rastered, &traced;
@@ -17,7 +17,7 @@ struct Pictures {
 
 // The same with frames of its own. `faults` must outlive it.
 struct Rendered {
-  Pictures pictures() const { return {scene, faults, rastered, traced}; }
+  BothPictures pictures() const { return {scene, faults, rastered, traced}; }
   const Scene& scene;
   const Faults& faults;
   Frame rastered, traced;
@@ -61,11 +61,11 @@ struct Differs {
 };
 
 // What the faults that only `with` has change.
-std::vector<char> changed_pixels(const Pictures& with, const Pictures& without) {
+std::vector<char> changed_pixels(const BothPictures& with, const BothPictures& without) {
   const Differs differs{with.scene, without.scene, with.faults.tessellate != without.faults.tessellate,
                         with.faults.float_precision == without.faults.float_precision};
   // Facets of one sphere in one colour are no change of either picture; that the two name different ones, is.
-  const auto apart = [](const Pictures& of, std::size_t i) {
+  const auto apart = [](const BothPictures& of, std::size_t i) {
     return Differs{of.scene, of.scene, false, true}.samples(of.rastered, of.traced, i);
   };
   std::vector<char> mask(with.rastered.pixels());
@@ -89,7 +89,7 @@ Spoiled find_spoiled(const Job& job, const Frame& rastered, const Frame& traced)
   const Faults& faults = job.options.faults;
   if (!faults.any()) return spoiled;
   const Faults none{};
-  const Pictures all{job.scene, faults, rastered, traced};
+  const BothPictures all{job.scene, faults, rastered, traced};
   const Rendered exact = render_with(job, none);
   spoiled.mask = changed_pixels(all, exact.pictures());
   for (int i = 0; i < kFaults; ++i) {

@@ -11,6 +11,7 @@
 namespace sidelight {
 
 inline constexpr std::size_t kLongestLine = 34;  // of a label, in letters
+inline constexpr double kHalfLetter = 4.5;       // of a plot's text: from the middle of a line to its foot
 
 // Its first kLongestLine letters, with an ellipsis where there are more.
 std::string shortened(const std::string& text);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "viewer/report/label_places.h"
+
 namespace sidelight {
 namespace {
 
@@ -17,7 +19,6 @@ constexpr std::size_t kLongestLabel = 40;
 // Where a plot's parts stand in its drawing, y down.
 constexpr double kWidth = 760, kLeft = 58, kRight = 590, kTop = 14, kBottom = 318, kHeight = 372;
 constexpr double kLegend = kRight + 22, kLegendLine = 25;
-constexpr double kHalfLetter = 4.5;  // from the middle of a line of text to its foot
 
 double place(const PlotAxis& axis, double value, double at_low, double at_high) {
   return at_low + (value - axis.low) / (axis.high - axis.low) * (at_high - at_low);

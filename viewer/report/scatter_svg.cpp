@@ -14,19 +14,18 @@
 namespace sidelight {
 namespace {
 
-constexpr double kLeft = 64, kRightRoom = 14, kTop = 14, kLegendRoom = 30, kBottomRoom = 50;
+constexpr double kLeftRoom = 64, kRightRoom = 14, kTopRoom = 14, kLegendRoom = 30, kBottomRoom = 50;
 constexpr double kRoomForLabels = 0.18;               // above the greatest error, as a part of the axis
 constexpr double kFloorRoom = 34;                     // below the break of the axis
-constexpr double kRadius = 5;                         // of a mark
+constexpr double kMarkRadius = 5;                     // of a mark
 constexpr double kReach = 11;                         // of what takes the mouse for it
 constexpr double kLetterWidth = 7, kLineHeight = 14;  // of a label
 constexpr double kKeyLetterWidth = 7.2;               // of the legend, whose letters are larger
-constexpr double kHalfLetter = 4.5;                   // from the middle of a line of text to its foot
 
 // Where things stand in the drawing.
 struct Layout {
   LogAxis x, y;
-  double left = kLeft, right = 0, top = 0, bottom = 0;  // of the logarithmic axes
+  double left = kLeftRoom, right = 0, top = 0, bottom = 0;  // of the logarithmic axes
   bool floor = false;
   double floor_y = 0;
 
@@ -54,7 +53,7 @@ Layout lay_out(const Scatter& plot, const std::vector<Mark>& marks) {
   out.x = log_axis(xs);
   out.y = log_axis(ys, kRoomForLabels);
   out.right = plot.width - kRightRoom;
-  out.top = kTop + (plot.legend ? kLegendRoom : 0);
+  out.top = kTopRoom + (plot.legend ? kLegendRoom : 0);
   out.bottom = plot.height - kBottomRoom - (out.floor ? kFloorRoom : 0);
   out.floor_y = out.bottom + kFloorRoom - 12;
   return out;
@@ -205,7 +204,8 @@ Html labels(const std::vector<Mark>& marks, const std::vector<glm::dvec2>& corne
   std::vector<Rectangle> taken;
   for (const Mark& mark : marks) {
     const glm::dvec2 p = at.at(mark);
-    taken.push_back({p.x - kRadius - 1, p.y - kRadius - 1, p.x + kRadius + 1, p.y + kRadius + 1});
+    taken.push_back(
+        {p.x - kMarkRadius - 1, p.y - kMarkRadius - 1, p.x + kMarkRadius + 1, p.y + kMarkRadius + 1});
     taken.push_back({at.at_x(mark.x_low), p.y - 1, at.at_x(mark.x_high), p.y + 1});
   }
   std::vector<Rectangle> steps;
@@ -234,15 +234,15 @@ Html legend(const Scatter& plot, const std::vector<Mark>& marks, const Layout& a
   Html out;
   double x = at.left + 8;
   const auto add = [&](std::size_t series, const char* state, const std::string& name) {
-    out += html("<g class=\"key s{} {}\" transform=\"translate({:.1f} {})\">{}</g>\n", series, state, x, kTop,
-                shape(series));
-    out += text(x + 11, kTop + kHalfLetter, shortened(name), "start");
+    out += html("<g class=\"key s{} {}\" transform=\"translate({:.1f} {})\">{}</g>\n", series, state, x,
+                kTopRoom, shape(series));
+    out += text(x + 11, kTopRoom + kHalfLetter, shortened(name), "start");
     x += 28 + text_width(shortened(name), kKeyLetterWidth);
   };
   for (std::size_t s = 0; s < plot.series.size(); ++s) add(s, "good", plot.series[s]);
   if (plot.staircase) {
-    out += path("staircase", html("M{:.1f},{} h12 v8 h12", x - 4, kTop - 4));
-    out += text(x + 25, kTop + kHalfLetter, "Pareto front", "start");
+    out += path("staircase", html("M{:.1f},{} h12 v8 h12", x - 4, kTopRoom - 4));
+    out += text(x + 25, kTopRoom + kHalfLetter, "Pareto front", "start");
     x += 42 + text_width("Pareto front", kKeyLetterWidth);
   }
   const auto any = [&](MarkState state) {

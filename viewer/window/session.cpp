@@ -12,7 +12,6 @@ namespace {
 constexpr double kDolly = 0.9;     // a step: a factor
 constexpr double kDragTurn = 4.0;  // radians for a drag over the panel's height
 
-glm::dvec2 middle(const Rect& panel) { return {(panel.x0 + panel.x1) / 2.0, (panel.y0 + panel.y1) / 2.0}; }
 double height(const Rect& panel) { return std::max(1, panel.height()); }
 
 }  // namespace

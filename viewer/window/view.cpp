@@ -26,8 +26,6 @@ double next_zoom(double zoom, bool up) {
 
 glm::dvec2 extent(const Rect& panel) { return {std::max(1, panel.width()), std::max(1, panel.height())}; }
 
-glm::dvec2 middle(const Rect& panel) { return glm::dvec2(panel.x0, panel.y0) + extent(panel) / 2.0; }
-
 double fit_zoom(glm::ivec2 picture, const Rect& panel) {
   const glm::dvec2 ratio = extent(panel) / glm::dvec2(glm::max(picture, glm::ivec2(1)));
   const double zoom = std::min(ratio.x, ratio.y);
@@ -42,6 +40,8 @@ void put_in_middle(View& view, glm::ivec2 picture, const Rect& panel, int axis) 
 }
 
 }  // namespace
+
+glm::dvec2 middle(const Rect& panel) { return glm::dvec2(panel.x0, panel.y0) + extent(panel) / 2.0; }
 
 View fit(const View& view, glm::ivec2 picture, const Rect& panel) {
   View fitted = view;

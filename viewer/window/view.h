@@ -39,6 +39,9 @@ View zoom_about(const View& view, glm::ivec2 picture, const Rect& panel, glm::dv
 // Moves the pictures by `by` device pixels, as far as clamp allows.
 View pan(const View& view, glm::ivec2 picture, const Rect& panel, glm::dvec2 by);
 
+// The middle of a panel, where `center` shows; an empty panel counts as one of 1x1.
+glm::dvec2 middle(const Rect& panel);
+
 // The whole device pixel on which the picture's top left corner lies; it may be outside the panel.
 glm::dvec2 picture_origin(const View& view, const Rect& panel);
 
