@@ -2,12 +2,14 @@
 // Which instruction set the lane kernels run on. Every choice gives the same bytes; only the speed differs.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
 namespace sidelight {
 
 enum class Isa { scalar, avx2, avx512 };
+inline constexpr std::array kIsas{Isa::scalar, Isa::avx2, Isa::avx512};
 
 // Whether this machine has it, and this build may use it: one by clang does without avx512.
 bool machine_has(Isa isa);

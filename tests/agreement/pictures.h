@@ -118,6 +118,11 @@ inline std::string differences(const Frame& part, const Frame& whole) {
   return out;
 }
 
+// A square picture of one ray a pixel.
+inline Camera square_camera(const Scene& scene, int edge = tier_edge()) {
+  return make_camera(scene.camera, edge, edge, 1);
+}
+
 // With every instruction set that this machine has, which must give the same bytes: so each hard case that is drawn holds
 // for all of them.
 inline Frame rastered(const Scene& scene, const Camera& camera,
@@ -125,7 +130,7 @@ inline Frame rastered(const Scene& scene, const Camera& camera,
   const auto prepared = raster::prepare(scene);
   Frame first = raster::render(*prepared, camera, options);
   const Isa given = options.isa;
-  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : kIsas) {
     if (isa == given || !machine_has(isa)) continue;
     options.isa = isa;
     const std::string other = differences(raster::render(*prepared, camera, options), first);

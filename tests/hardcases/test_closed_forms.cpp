@@ -9,6 +9,7 @@
 #include "common/scene/shapes.h"
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/approx.h"
 #include "tests/support/rays.h"
 #include "tests/support/scenes.h"
 #include "tests/support/trees.h"
@@ -18,8 +19,6 @@ using namespace sidelight;
 using namespace sidelight::test;
 
 namespace {
-
-constexpr double kEps = 0x1p-52;
 
 // The rays of a tree that follow one another by the first child of this kind.
 std::vector<const RayRecord*> chain(const RayRecord& root, RayKind kind) {
@@ -236,7 +235,7 @@ TEST_CASE("FORM-5: a closed box of mirrors") {
   scene.camera.look_at = {1, 0.4, -0.7};
   scene.camera.view_height = 2;
   const int edge = std::min(128, tier_edge() / 4);
-  const Frame frame = test::traced(scene, make_camera(scene.camera, edge, edge, 1));
+  const Frame frame = test::traced(scene, square_camera(scene, edge));
   Worst color;
   for (const glm::vec3& c : frame.color) color.add(std::abs(c.x / series(kGlow, k, kDepth) - 1));
   const HardCase closed("FORM-5");

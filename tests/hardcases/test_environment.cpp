@@ -67,7 +67,7 @@ TEST_CASE("DET-2: lanes that are not used may hold anything") {
   }
   REQUIRE(points.size() == 40);
   std::uint64_t unlike = 0, looked_at = 0;
-  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : kIsas) {
     if (!machine_has(isa)) continue;
     for (const float poison :
          {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),

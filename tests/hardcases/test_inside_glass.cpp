@@ -10,6 +10,7 @@
 #include "common/scene/shapes.h"
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/approx.h"
 #include "tests/support/lit.h"
 #include "tests/support/rays.h"
 #include "tests/support/trees.h"
@@ -19,8 +20,6 @@ using namespace sidelight;
 using namespace sidelight::test;
 
 namespace {
-
-constexpr double kEps = 0x1p-52;
 
 // ---- REF-5 ----
 
@@ -181,7 +180,7 @@ TEST_CASE("REF-7: light trapped in a cube and in a gem of index 2.4") {
           scene.trace.depth = depth;
           scene.trace.contribution_cut = cut;
           const int edge = std::min(tier_edge() / 3, 160);
-          const Camera camera = make_camera(scene.camera, edge, edge, 1);
+          const Camera camera = square_camera(scene, edge);
           on_small_stack(kSmallStack, [&] {
             RenderOptions options = test::keeping(0);
             options.threads = 1;

@@ -16,8 +16,6 @@ using namespace sidelight::test;
 
 namespace {
 
-constexpr double kEps = 0x1p-23;  // colours are float
-
 // Both pictures of a scene without shadows and secondary rays; they must be the same bytes.
 struct LocalPictures {
   explicit LocalPictures(const Scene& scene, int width = 64, int height = 48)

@@ -116,7 +116,7 @@ TEST_CASE("MIR-4: rays double at each level, and what is cut off is what is miss
   add_lack(all);
   for (const double cut : {1e-2, 1e-3}) {
     const Scene scene = onion(20, 20, cut);
-    add_lack(test::traced(scene, make_camera(scene.camera, edge, edge, 1)));
+    add_lack(test::traced(scene, square_camera(scene, edge)));
     // 0.5^levels >= cut
     const auto prepared = raytrace::Prepared(scene);
     const double most = std::floor(std::log(cut) / std::log(0.5));

@@ -9,6 +9,7 @@
 #include "common/model/visibility.h"
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/approx.h"
 #include "tests/support/scenes.h"
 #include "tests/support/worst.h"
 
@@ -16,8 +17,6 @@ using namespace sidelight;
 using namespace sidelight::test;
 
 namespace {
-
-constexpr double kEps = 0x1p-52;
 
 Hit first_hit(const Scene& scene, const Ray& ray) {
   VisibilityCounts counts;

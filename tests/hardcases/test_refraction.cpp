@@ -10,6 +10,7 @@
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
 #include "tests/scene/toml_text.h"
+#include "tests/support/approx.h"
 #include "tests/support/lit.h"
 #include "tests/support/rays.h"
 #include "tests/support/scenes.h"
@@ -19,10 +20,6 @@ using namespace sidelight;
 using namespace sidelight::test;
 
 namespace {
-
-constexpr double kEps = 0x1p-52;
-
-Camera square_camera(const Scene& scene) { return make_camera(scene.camera, tier_edge(), tier_edge(), 1); }
 
 // Squares of two materials on y = -1, from -8 to 8.
 void add_checkers(Scene& scene) {
@@ -86,7 +83,7 @@ Scene faceted_drink(Order order) {
 
 Camera camera_at(const Scene& scene) {
   const int edge = std::min(tier_edge() / 3, 160);
-  return make_camera(scene.camera, edge, edge, 1);
+  return square_camera(scene, edge);
 }
 
 struct Apart {

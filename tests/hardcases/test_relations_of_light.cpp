@@ -3,14 +3,13 @@
 // INP-5).
 #include "tests/hardcases/relations.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/approx.h"
 #include "tests/support/scenes.h"
 
 using namespace sidelight;
 using namespace sidelight::test;
 
 namespace {
-
-constexpr double kEps = 0x1p-23;  // colours are float
 
 // The scene with each opaque object twice, the second ones last. (A sheet that lets light through is shaded on the way,
 // and two of them are.)
@@ -83,7 +82,7 @@ TEST_CASE("MET-7: two lights of half the intensity are one") {
   halves.lights[0].intensity *= 0.5;
   halves.lights.push_back(halves.lights[0]);
   HardCase("MET-7").at_most("one light: difference of colours, in units of eps",
-                            likeness(scene, halves).color / kEps, 4);
+                            likeness(scene, halves).color / kFloatEps, 4);
 
   // Behind another light.
   Scene both = everything();
@@ -91,7 +90,7 @@ TEST_CASE("MET-7: two lights of half the intensity are one") {
   split.lights[1].intensity *= 0.5;
   split.lights.push_back(split.lights[1]);
   HardCase("MET-7").at_most("after another light: difference of colours, in units of eps",
-                            likeness(both, split).color / kEps, 4);
+                            likeness(both, split).color / kFloatEps, 4);
 }
 
 // A highlight's last trace may be a denormal, which has fewer bits to scale: what is below 2^-100 is left out.

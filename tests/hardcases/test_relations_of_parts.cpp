@@ -5,16 +5,13 @@
 
 #include "tests/hardcases/relations.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/approx.h"
 #include "tests/support/scenes.h"
 
 using namespace sidelight;
 using namespace sidelight::test;
 
-namespace {
-
-constexpr double kEps = 0x1p-23;  // colours are float
-
-}  // namespace
+namespace {}  // namespace
 
 // ---- MET-3 ----
 
@@ -65,7 +62,7 @@ TEST_CASE("MET-3: the order of lights, objects, triangles and vertices") {
     }
   }
   hard.none("objects: pixels with another surface or depth", moved_surfaces, pixels);
-  hard.at_most("objects: colours, in units of eps", color / kEps, 0);
+  hard.at_most("objects: colours, in units of eps", color / kFloatEps, 0);
 
   // Triangles backwards, corners rotated.
   const auto change = [](std::vector<Triangle>& triangles, std::vector<glm::dvec3>&) {
@@ -99,7 +96,7 @@ TEST_CASE("MET-3: the order of lights, objects, triangles and vertices") {
     }
   }
   hard.none("triangles and corners: pixels with another surface", other_surface, pixels);
-  hard.at_most("triangles and corners: matte colours, in units of eps", matte_color / kEps, 4);
+  hard.at_most("triangles and corners: matte colours, in units of eps", matte_color / kFloatEps, 4);
 }
 
 // ---- MET-4: midpoints of dyadic vertices are exact, so the four cover exactly what the one did ----

@@ -4,14 +4,13 @@
 #include "raytrace/prepared.h"
 #include "tests/hardcases/relations.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/approx.h"
 #include "tests/support/scenes.h"
 
 using namespace sidelight;
 using namespace sidelight::test;
 
 namespace {
-
-constexpr double kEps = 0x1p-23;  // colours are float
 
 // A highlight's error by the kernel is (24 s + 24) 2^-24 at most (tests/model/test_phong.cpp), once for each picture,
 // of each light; s = 120 and two lights at most here, and every weight at most 1.
@@ -29,7 +28,7 @@ void report(const HardCase& hard, const std::string& what, const Likeness& gloss
             double bound) {
   hard.none(what + ": pixels with another surface", glossy.surfaces + dull.surfaces,
             glossy.pixels + dull.pixels);
-  hard.at_most(what + ": matte colours, difference in units of eps", dull.color / kEps, bound);
+  hard.at_most(what + ": matte colours, difference in units of eps", dull.color / kFloatEps, bound);
   hard.at_most(what + ": colours with highlights, in units of 2 lights (24 s + 24) 2^-24 each",
                glossy.color / kGlossy, 1);
 }

@@ -148,7 +148,7 @@ TEST_CASE("SEC-4: a glass ball on a floor, seen at the contact from outside and 
   for (const glm::dvec3& eye : {glm::dvec3(0.02, 1e-5, 0.01), glm::dvec3(0.3, 0.5, 0.1)}) {
     scene.camera.eye = eye;
     scene.camera.view_height = 2e-3 / glm::length(eye);  // 1e-3 around the contact
-    const Frame frame = test::traced(scene, make_camera(scene.camera, tier_edge(), tier_edge(), 1));
+    const Frame frame = test::traced(scene, square_camera(scene));
     for (const glm::vec3& c : frame.color) bright += !(c.x < 1e3f);
     pixels += frame.pixels();
   }
@@ -175,7 +175,7 @@ TEST_CASE("SEC-6: origins and colours of all rays of a scene scale exactly") {
   scene.camera.eye = {0.5, 1.5, 3};
   scene.camera.look_at = {0, 0, 0};
   const int edge = std::min(tier_edge(), 128);
-  const Camera camera = make_camera(scene.camera, edge, edge, 1);
+  const Camera camera = square_camera(scene, edge);
   const auto prepared = raytrace::prepare(scene);
   std::uint64_t changed = 0, trees = 0;
   for (const int k : {-20, -10, 10, 20}) {

@@ -19,10 +19,6 @@ using namespace sidelight::test;
 
 namespace {
 
-Camera square_camera(const Scene& scene, int edge = tier_edge()) {
-  return make_camera(scene.camera, edge, edge, 1);
-}
-
 // ---- SHA-1 ----
 
 // A ball that nothing stands before, lit by a light that lies on something else.

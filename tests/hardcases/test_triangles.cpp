@@ -11,6 +11,7 @@
 #include "raytrace/prepared.h"
 #include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/approx.h"
 #include "tests/support/scenes.h"
 #include "tests/support/worst.h"
 
@@ -18,8 +19,6 @@ using namespace sidelight;
 using namespace sidelight::test;
 
 namespace {
-
-constexpr double kEps = 0x1p-52;
 
 const glm::dvec3& corner(const Scene& scene, std::uint32_t triangle, std::size_t k) {
   return scene.positions[scene.triangles[triangle].vertex[k]];

@@ -218,7 +218,7 @@ TEST_CASE("CAM-5: a scene far from the origin, the camera with it") {
     scene.camera.eye = snapped(glm::dvec3(0.7, 0.9, 3.3)) + away.translate;
     scene.camera.look_at = away.translate;
     const int edge = tier() == "sanitized" ? 64 : 256;
-    const Camera camera = make_camera(scene.camera, edge, edge, 1);
+    const Camera camera = square_camera(scene, edge);
     return std::pair(rastered(scene, camera), traced(scene, camera));
   };
   const auto [flat, deep] = picture_at(0);

@@ -20,7 +20,6 @@ using namespace sidelight::test;
 
 namespace {
 
-constexpr double kEps = 0x1p-52;
 const glm::dvec3 kUp{0, 1, 0};
 
 // Travelling down onto the plane y = 0, at this sine with its normal.
@@ -62,7 +61,7 @@ TEST_CASE("beyond the critical angle nothing is transmitted") {
 TEST_CASE("next to the critical angle directions are unit, keep Snell's law and decide alike") {
   Random random(1);
   std::uint64_t wrong_decision = 0, transmitted = 0, reflected = 0;
-  Worst length_error, sine_error, cosine_error;   // in eps, eps and n sqrt(eps)
+  Worst length_error, sine_error, cosine_error;  // in eps, eps and n sqrt(eps)
   const std::uint64_t each = 1 + tier_count("rays_per_case") / 36;
   for (const double n : {1.0001, 1.5, 2.4})
     for (double width = 1e-1; width > 5e-7; width /= 10)
@@ -105,7 +104,8 @@ TEST_CASE("the critical cosine itself, rounded up and down, gives a unit directi
       ++all;
       wrong += t && !(std::abs(glm::length(*t) - 1) <= 4 * kEps);
     }
-  HardCase("REF-1").none("directions at the rounded critical cosine that are neither unit nor none", wrong, all);
+  HardCase("REF-1").none("directions at the rounded critical cosine that are neither unit nor none", wrong,
+                         all);
 }
 
 // REF-2
@@ -117,7 +117,8 @@ TEST_CASE("equal indices give the ray's own direction, bit for bit") {
     const auto t = refract_direction(d, random.direction(), random.direction(), 1);
     changed += !t || *t != d;
   }
-  HardCase("REF-2").none("directions that equal indices change in any bit", changed, tier_count("rays_per_case"));
+  HardCase("REF-2").none("directions that equal indices change in any bit", changed,
+                         tier_count("rays_per_case"));
 }
 
 TEST_CASE("a mirror ray that an interpolated normal sends below the surface is folded back") {

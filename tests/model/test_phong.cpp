@@ -17,9 +17,8 @@ using namespace sidelight::test;
 
 namespace {
 
-// Unit roundoff.
 template <class T>
-constexpr double kU = std::numeric_limits<T>::epsilon() / 2;
+constexpr double kRoundoff = std::numeric_limits<T>::epsilon() / 2;
 
 template <class T>
 Vec3<T> vec(const glm::dvec3& v) {
@@ -83,9 +82,9 @@ TEST_CASE_TEMPLATE("a point light worked out by hand", T, float, double) {
   // L is good to 2 u, f to 5 u, three products: 12 u of at most 1.28 would do without the power; |Rl - V|²/2
   // is off by 10 u, relative to Rl.V = 0.8 and doubled by the exponent 25 u, log1p and exp 8 u more. Together
   // under 50 u.
-  CHECK(term.diffuse == near({0.4, 0.4, 0.4}, 12 * kU<T>));
-  CHECK(term.specular == near({0.16, 0.32, 1.28}, 50 * kU<T> * 1.28));
-  CHECK(term.total() == near({0.56, 0.72, 1.68}, 50 * kU<T> * 1.68));
+  CHECK(term.diffuse == near({0.4, 0.4, 0.4}, 12 * kRoundoff<T>));
+  CHECK(term.specular == near({0.16, 0.32, 1.28}, 50 * kRoundoff<T> * 1.28));
+  CHECK(term.total() == near({0.56, 0.72, 1.68}, 50 * kRoundoff<T> * 1.68));
 }
 
 TEST_CASE_TEMPLATE("attenuation falls with the distance, its square, or not at all", T, float, double) {
@@ -190,12 +189,12 @@ TEST_CASE_TEMPLATE("72 combinations of s, Rl.V and N.L follow the definition of 
         point.to_viewer = vec<T>(with_cosine(rv));
         const double expected = nl > 0 && rv > 0 ? std::pow(rv, s) : 0;
         const LightTerm<T> term = light_term<T>(point, sun<T>(with_cosine(nl)));
-        CHECK(term.specular == near(glm::dvec3(expected), 8 * kU<T>));
+        CHECK(term.specular == near(glm::dvec3(expected), 8 * kRoundoff<T>));
         worst = std::max(worst, std::abs(double{term.specular.x} - expected));
       }
   HardCase("PHO-1").at_most(sizeof(T) == 4 ? "72 combinations in float, error in units of eps"
                                            : "72 combinations in double, error in units of eps",
-                            worst / (2 * kU<T>), 4);
+                            worst / (2 * kRoundoff<T>), 4);
 }
 
 // PHO-2. The angle is known in double; Rl and V are rounded to float. With y = s |Rl - V|²/2 and an error of
@@ -255,11 +254,12 @@ TEST_CASE("float and double agree to the rounding of float") {
     };
     const LightTerm<float> narrow = evaluate(0.0f);
     const LightTerm<double> wide = evaluate(0.0);
-    wrong += !(std::abs(narrow.diffuse.x - wide.diffuse.x) <= 16 * kU<float>);
+    wrong += !(std::abs(narrow.diffuse.x - wide.diffuse.x) <= 16 * kRoundoff<float>);
     // Where Rl.V or N.L is 0 to rounding, only one of them may see the highlight: up to its height there, s
     // 24 u.
     const bool edge = (narrow.specular.x > 0) != (wide.specular.x > 0);
-    wrong += !edge && !(std::abs(narrow.specular.x - wide.specular.x) <= (24 * shininess + 24) * kU<float>);
+    wrong +=
+        !edge && !(std::abs(narrow.specular.x - wide.specular.x) <= (24 * shininess + 24) * kRoundoff<float>);
   }
   CHECK(wrong == 0);
 }

@@ -187,7 +187,7 @@ TEST_CASE("a batch of none changes nothing") {
   shade(Isa::scalar, tables, batch);
   const ShadingBatch before = batch;
   batch.size = 0;
-  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+  for (const Isa isa : kIsas)
     if (machine_has(isa)) shade(isa, tables, batch);
   batch.size = 1;
   CHECK(differing_entries(batch, before) == 0);

@@ -9,6 +9,7 @@
 #include "common/model/visibility.h"
 #include "common/scene/camera.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/approx.h"
 #include "tests/support/rays.h"
 #include "tests/support/scenes.h"
 #include "tests/support/wide.h"
@@ -19,8 +20,6 @@ using namespace sidelight;
 using namespace sidelight::test;
 
 namespace {
-
-constexpr double kEps = 0x1p-52, kFloatEps = 0x1p-23;
 
 // The roots of |o + t d - c| = r in 113 bits: good to 1e-18 of t even from 1e7 radii away.
 struct ExactRoots {

@@ -27,7 +27,7 @@ Frame judged(const Scene& scene, const Camera& camera, RenderOptions options = k
 
   options.layers &= ~layer_bit(Layer::cost);
   const auto prepared = raster::prepare(scene);
-  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : kIsas) {
     if (!machine_has(isa)) continue;
     options.isa = isa;
     options.threads = 3;

@@ -46,7 +46,7 @@ Hit expected(const BallBatch& batch, std::size_t i) {
 
 TEST_CASE("balls in lanes: where single rays meet them") {
   const auto batch = std::make_unique<BallBatch>();
-  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : kIsas) {
     if (!machine_has(isa)) continue;
     Random random(98);
     std::uint64_t differing = 0, found = 0, asked = 0;

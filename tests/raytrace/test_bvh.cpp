@@ -34,7 +34,7 @@ Bvh bvh_over(const std::vector<Box>& boxes, int threads = 1) {
 
 std::vector<Isa> isas() {
   std::vector<Isa> all;
-  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+  for (const Isa isa : kIsas)
     if (machine_has(isa)) all.push_back(isa);
   return all;
 }

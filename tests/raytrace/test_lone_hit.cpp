@@ -160,7 +160,7 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
            hit = nearest(prepared, ray, hit, counts)) {
         const Lone lone = lone_hit(prepared, ray, hit, best_isa(), &clearings);
         clear += is_clear(prepared, ray, hit, clearings);
-        for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+        for (const Isa isa : kIsas) {
           if (!machine_has(isa)) continue;
           const Lone searched = lone_hit(prepared, ray, hit, isa);
           CHECK((searched == lone || searched == Lone::unknown));

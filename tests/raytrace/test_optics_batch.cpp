@@ -47,7 +47,7 @@ void check(const OpticsBatch& batch, std::size_t i) {
 
 TEST_CASE("optics in lanes: the directions of single rays") {
   const auto batch = std::make_unique<OpticsBatch>();
-  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : kIsas) {
     if (!machine_has(isa)) continue;
     Random random(99);
     for (std::uint64_t left = 1 + tier_count("rays_per_case") / 1000; left > 0; --left) {

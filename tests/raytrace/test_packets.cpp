@@ -18,8 +18,6 @@ using raytrace::ShadowQuery;
 
 namespace {
 
-constexpr std::array kIsas{Isa::scalar, Isa::avx2, Isa::avx512};
-
 // What is drawn lies around `center`: triangles of all sizes that touch and repeat, a finely faceted ball, balls, planes.
 struct Drawn {
   glm::dvec3 center{0};

@@ -16,8 +16,6 @@ using raytrace::Prepared;
 
 namespace {
 
-constexpr Isa kIsas[]{Isa::scalar, Isa::avx2, Isa::avx512};
-
 // Where a scene's unit box stands in the world.
 struct Placement {
   double size;

@@ -60,7 +60,7 @@ TEST_CASE("shadow places are those of a plain loop, on every instruction set") {
   for (int round = 0; round < 400; ++round) {
     const glm::dvec3 light = random.on_grid(5);
     const ShadowQueries queries = drawn_queries(random, light, round % 2 == 0);
-    for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : kIsas) {
       if (!machine_has(isa)) continue;
       CAPTURE(round);
       CAPTURE(static_cast<int>(isa));

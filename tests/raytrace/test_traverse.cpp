@@ -93,7 +93,7 @@ TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and 
       const Ray ray = ray_on_grid(scene, random);
       const Hit expected = nearest_of_all(scene, ray, kRayStart, counts);
       const Hit second = nearest_of_all(scene, ray, expected, counts);
-      for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+      for (const Isa isa : kIsas) {
         if (!machine_has(isa)) continue;
         differing += nearest(prepared, ray, kRayStart, counts, exact, isa) != expected;
         differing += expected.found() && nearest(prepared, ray, expected, counts, exact, isa) != second;
@@ -138,7 +138,7 @@ TEST_CASE("hits_between is every hit in the interval, in order, those at its end
       const double last_t = all[first + random.below(static_cast<std::uint32_t>(all.size() - first))].t;
       std::vector<Hit> expected;
       for (std::size_t k = first; k < all.size() && all[k].t <= last_t; ++k) expected.push_back(all[k]);
-      for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+      for (const Isa isa : kIsas)
         if (machine_has(isa))
           differing += hits_between(prepared, ray, all[first], last_t, counts, isa) != expected;
       found += expected.size();

@@ -173,7 +173,7 @@ TEST_CASE("waves are the recursion where edges run through rays") {
     PolygonMesh soup = mesh_of(positions, faces);
     for (PolygonMesh::Face& face : soup.faces) face.material = random.below(6);
     add_mesh(scene, soup, {}, {});
-    for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+    for (const Isa isa : kIsas)
       if (machine_has(isa)) check_same(scene, 37, 29, 1, isa);
   }
 }
@@ -214,7 +214,7 @@ TEST_CASE("waves are the recursion at the outline of glass balls") {
                                       random.log_uniform(1e-15, 1e-2) * random.direction(),
                                   0.5));
     scene.lights.push_back(sun(across(outline - center, random), 0.4));
-    for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+    for (const Isa isa : kIsas)
       if (machine_has(isa)) check_same(scene, 37, 29, 1, isa);
   }
 }

@@ -25,8 +25,8 @@ inline Scene scene_with(const std::vector<double>& refract_iors = {}) {
   return scene;
 }
 
-inline PolygonMesh mesh_of(std::vector<glm::dvec3> positions,
-                           const std::vector<std::vector<std::uint32_t>>& faces) {
+inline PolygonMesh polygons_of(std::vector<glm::dvec3> positions,
+                               const std::vector<std::vector<std::uint32_t>>& faces) {
   PolygonMesh mesh;
   mesh.positions = std::move(positions);
   for (const auto& numbers : faces) {
@@ -50,7 +50,7 @@ inline Scene built(const PolygonMesh& mesh, const Transform& transform = {}) {
 
 inline bool is_closed(const std::vector<glm::dvec3>& positions,
                       const std::vector<std::vector<std::uint32_t>>& faces) {
-  return built(mesh_of(positions, faces)).objects[0].closed;
+  return built(polygons_of(positions, faces)).objects[0].closed;
 }
 
 inline double volume(const Scene& scene) {

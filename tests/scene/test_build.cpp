@@ -40,7 +40,7 @@ std::string mistake(const PolygonMesh& mesh, const Transform& transform = {}) {
 TEST_CASE("build: objects and primitives are numbered in the order they are added") {
   Scene scene = scene_with();
   add_sphere(scene, {{1, 2, 3}, 4, 0}, kHere);
-  add_mesh(scene, mesh_of(kCorners, kTetrahedron), {}, kHere);
+  add_mesh(scene, polygons_of(kCorners, kTetrahedron), {}, kHere);
   add_plane(scene, {{0, 0, 0}, {0, 2, 0}, 0}, {"s.toml", 9, 1});
   add_mesh(scene, make_box({1, 1, 1}), {}, kHere);
   add_sphere(scene, {{0, 0, 0}, 1, 0}, kHere);
@@ -69,11 +69,11 @@ TEST_CASE("build: positions and lengths below 1e-30 are 0, beyond 1e15 a mistake
   for (const double bad : {1.1e15, -kInfinity, std::nan("")}) {
     CHECK_THROWS_AS(add_sphere(scene, {{0, bad, 0}, 1, 0}, kHere), InputError);
     CHECK_THROWS_AS(add_plane(scene, {{0, 0, bad}, {0, 1, 0}, 0}, kHere), InputError);
-    CHECK_THROWS_AS(built(mesh_of({{0, 0, 0}, {bad, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})), InputError);
+    CHECK_THROWS_AS(built(polygons_of({{0, 0, 0}, {bad, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})), InputError);
   }
   CHECK(scene.objects.size() == 1);  // what is refused leaves nothing behind
 
-  const PolygonMesh mesh = mesh_of({{0, 0, 0}, {1e14, 0, 0}, {0, 1e-31, 0}}, {{0, 1, 2}});
+  const PolygonMesh mesh = polygons_of({{0, 0, 0}, {1e14, 0, 0}, {0, 1e-31, 0}}, {{0, 1, 2}});
   CHECK(built(mesh).positions[2] == dvec3(0, 0, 0));
   CHECK(mistake(mesh, {diagonal(11, 1, 1), dvec3(0)}) ==
         "s.toml:7:3: vertex 2 (of the mesh, from 1) is 1.1e+15, expected at most 1e15 in magnitude");
@@ -98,7 +98,7 @@ TEST_CASE("build: plane normals of any length, and the same bits when scaled by 
 }
 
 TEST_CASE("build: vertex normals are unit, zero stays zero, scaling by 2^k changes no bit") {
-  PolygonMesh mesh = mesh_of(kCorners, {{0, 1, 2}});
+  PolygonMesh mesh = polygons_of(kCorners, {{0, 1, 2}});
   const dvec3 n(0.1, 0.7, -3);
   for (const int k : {0, -60, 60, -1000, 1000})
     mesh.normals.push_back({std::ldexp(n.x, k), std::ldexp(n.y, k), std::ldexp(n.z, k)});
@@ -121,7 +121,7 @@ TEST_CASE("build: vertex normals are unit, zero stays zero, scaling by 2^k chang
 }
 
 TEST_CASE("build: a second mesh has vertices and normals of its own") {
-  PolygonMesh mesh = mesh_of(kCorners, {{0, 1, 2}});
+  PolygonMesh mesh = polygons_of(kCorners, {{0, 1, 2}});
   mesh.normals = {{0, 0, 1}};
   for (auto& corner : mesh.corners) corner.normal = 0;
   Scene scene = scene_with();
@@ -146,7 +146,7 @@ TEST_CASE("build: normals stay square to transformed tangents") {
     const dmat3 turn(std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle));
     const dmat3 m = turn * shear * diagonal(1, count % 2 ? 1 : -1, stretch);
     const dvec3 n = random.direction();
-    PolygonMesh mesh = mesh_of({}, {});
+    PolygonMesh mesh = polygons_of({}, {});
     mesh.normals = {n};
     const dvec3 mapped = built(mesh, {m, dvec3(0)}).normals[0];
     other_side += !(glm::dot(mapped, m * n) > 0);
@@ -173,7 +173,7 @@ TEST_CASE("build: normals stay square to transformed tangents") {
 }
 
 TEST_CASE("build: singular maps squash normals without a NaN") {
-  PolygonMesh mesh = mesh_of(kCorners, {{0, 1, 3}});
+  PolygonMesh mesh = polygons_of(kCorners, {{0, 1, 3}});
   mesh.normals = {{0, 1, 0}, {1, 0, 0}, {1, 1, 1}};
   const Scene flat = built(mesh, {diagonal(1, 0, 1), dvec3(0)});
   CHECK(flat.normals[0] == dvec3(0, 1, 0));
@@ -186,7 +186,7 @@ TEST_CASE("build: singular maps squash normals without a NaN") {
 
 TEST_CASE("build: a mirror image keeps its outside") {
   // Open: the winding is reversed, so that the face's normal stays on its vertex normals' side.
-  PolygonMesh sheet = mesh_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
+  PolygonMesh sheet = polygons_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
   sheet.normals = {{0, 0, 1}};
   for (auto& corner : sheet.corners) corner.normal = 0;
   std::uint64_t turned = 0;
@@ -201,13 +201,13 @@ TEST_CASE("build: a mirror image keeps its outside") {
   }
   test::HardCase("XFM-3").none("mirrored faces that turn away from their vertex normals", turned, 4);
   // Closed: the volume is positive either way.
-  CHECK(volume(built(mesh_of(kCorners, kTetrahedron))) == doctest::Approx(1.0 / 6));
-  CHECK(volume(built(mesh_of(kCorners, kTetrahedron), {diagonal(-1, 1, 1), dvec3(5)})) ==
+  CHECK(volume(built(polygons_of(kCorners, kTetrahedron))) == doctest::Approx(1.0 / 6));
+  CHECK(volume(built(polygons_of(kCorners, kTetrahedron), {diagonal(-1, 1, 1), dvec3(5)})) ==
         doctest::Approx(1.0 / 6));
 }
 
 TEST_CASE("build: counts beyond bounds are refused before memory is spent") {
-  PolygonMesh mesh = mesh_of({{0, 0, 0}}, {});
+  PolygonMesh mesh = polygons_of({{0, 0, 0}}, {});
   mesh.corners.resize(100'001);
   PolygonMesh::Face face;
   face.count = 100'001;
@@ -219,7 +219,7 @@ TEST_CASE("build: counts beyond bounds are refused before memory is spent") {
 }
 
 TEST_CASE("build: a mesh without faces is an object without primitives") {
-  const Scene scene = built(mesh_of(kCorners, {}));
+  const Scene scene = built(polygons_of(kCorners, {}));
   CHECK(scene.objects[0].count == 0);
   CHECK_FALSE(scene.objects[0].closed);
   CHECK(scene.primitive_object.empty());

@@ -18,8 +18,6 @@ using namespace sidelight::test;
 
 namespace {
 
-constexpr double kEps = 0x1p-52;
-
 CameraSettings looking(const glm::dvec3& eye, const glm::dvec3& look_at, const glm::dvec3& up = {0, 1, 0}) {
   CameraSettings settings;
   settings.eye = eye;

@@ -19,7 +19,7 @@ using glm::dvec3;
 TEST_CASE("build: a closed mesh is turned outward, its triangles keep their numbers") {
   auto inward = kTetrahedron;
   for (auto& face : inward) std::swap(face[1], face[2]);
-  PolygonMesh mesh = mesh_of(kCorners, inward);
+  PolygonMesh mesh = polygons_of(kCorners, inward);
   mesh.normals = kCorners;
   for (auto& corner : mesh.corners) corner.normal = corner.position;
   for (const double far : {0.0, 1e6, 1e12}) {
@@ -33,7 +33,7 @@ TEST_CASE("build: a closed mesh is turned outward, its triangles keep their numb
     }
   }
   inward.pop_back();  // open: as the file has it
-  CHECK(built(mesh_of(kCorners, inward)).triangles[0].vertex == std::array<std::uint32_t, 3>{0, 1, 2});
+  CHECK(built(polygons_of(kCorners, inward)).triangles[0].vertex == std::array<std::uint32_t, 3>{0, 1, 2});
 }
 
 TEST_CASE("build: closed means each directed edge once, with its reverse, by position") {
@@ -68,7 +68,7 @@ TEST_CASE("build: degenerate triangles are flagged, and a mesh that closes with 
   corners.push_back({1, 0, 0});  // 5, the place of 1
   const std::vector<std::vector<std::uint32_t>> divided{{0, 2, 4}, {4, 2, 1}, {0, 4, 1},
                                                         {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  const Scene scene = built(mesh_of(corners, divided));
+  const Scene scene = built(polygons_of(corners, divided));
   CHECK(scene.objects[0].closed);
   for (std::size_t i = 0; i < 6; ++i) CHECK(scene.triangles[i].degenerate == (i == 2));
   CHECK_FALSE(is_closed(corners, {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}));
@@ -77,7 +77,7 @@ TEST_CASE("build: degenerate triangles are flagged, and a mesh that closes with 
        std::vector<std::vector<std::uint32_t>>{{0, 1, 5}, {1, 5, 0}, {1, 1, 2}, {3, 3, 3}}) {
     auto faces = kTetrahedron;
     faces.push_back(needle);
-    const Scene with = built(mesh_of(corners, faces));
+    const Scene with = built(polygons_of(corners, faces));
     CHECK(with.objects[0].closed);
     CHECK(with.triangles[4].degenerate);
     CHECK(with.triangles.size() == 5);
@@ -95,16 +95,16 @@ TEST_CASE("build: degeneracy is exact (TRI-4)") {
     if (a == b) continue;
     const double k = i % 3 == 0 ? 2 : i % 3 == 1 ? 3 : -1;
     dvec3 c = a + k * (b - a);
-    CHECK(built(mesh_of({a, b, c}, {{0, 1, 2}})).triangles[0].degenerate);
+    CHECK(built(polygons_of({a, b, c}, {{0, 1, 2}})).triangles[0].degenerate);
     c[i % 2] = std::nextafter(c[i % 2], std::numeric_limits<double>::infinity());
     // Off the line by one ulp, unless the line runs along that axis.
     const bool along = glm::length(b - a) == std::abs(b[i % 2] - a[i % 2]);
-    CHECK(built(mesh_of({a, b, c}, {{0, 1, 2}})).triangles[0].degenerate == along);
+    CHECK(built(polygons_of({a, b, c}, {{0, 1, 2}})).triangles[0].degenerate == along);
   }
-  const Scene pbrt = built(mesh_of({{-1113.45459, -79.049614, -56.2431908},
-                                    {-1113.45459, -87.0922699, -56.2431908},
-                                    {-1113.45459, -79.2090149, -56.2431908}},
-                                   {{0, 1, 2}}));
+  const Scene pbrt = built(polygons_of({{-1113.45459, -79.049614, -56.2431908},
+                                        {-1113.45459, -87.0922699, -56.2431908},
+                                        {-1113.45459, -79.2090149, -56.2431908}},
+                                       {{0, 1, 2}}));
   CHECK(pbrt.triangles[0].degenerate);
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("build: solids and their index of refraction") {
   add_sphere(scene, {{0, 0, 0}, 1, 0}, kHere);
   add_sphere(scene, {{0, 0, 0}, 1, 1}, kHere);
   add_plane(scene, {{0, 0, 0}, {0, 1, 0}, 2}, kHere);
-  PolygonMesh mesh = mesh_of(kCorners, kTetrahedron);
+  PolygonMesh mesh = polygons_of(kCorners, kTetrahedron);
   add_mesh(scene, mesh, {}, kHere);
   mesh.faces[1].material = 2;
   mesh.faces[2].material = 2;

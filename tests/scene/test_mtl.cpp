@@ -11,15 +11,15 @@ using glm::dvec3;
 
 namespace {
 
-MtlFile parsed(const std::string& text) {
+MtlFile parsed_mtl(const std::string& text) {
   const TempFolder folder;
   return read_mtl(folder.write("m.mtl", text), {"t.obj", 2, 8});
 }
 
 // What read_mtl throws, from the file's name on; empty for nothing.
-std::string mistake(const std::string& text) {
+std::string mistake_in_mtl(const std::string& text) {
   try {
-    parsed(text);
+    parsed_mtl(text);
   } catch (const InputError& error) {
     const std::string message = error.what();
     return message.substr(message.find("m.mtl"));
@@ -32,7 +32,7 @@ bool ends_with(const std::string& text, const std::string& end) { return text.en
 }  // namespace
 
 TEST_CASE("mtl: coefficients as they are") {
-  const MtlFile mtl = parsed(
+  const MtlFile mtl = parsed_mtl(
       "# two materials\r\n"
       "newmtl red glass\r\n"
       "  Ka .1 .2 .3\r\n\tKd 0.5\r\nKs 1 2 3 # more than 1 is fine\r\nNs 32.5\r\nNi 1.5\r\nillum 2\r\n"
@@ -61,7 +61,8 @@ TEST_CASE("mtl: coefficients as they are") {
 TEST_CASE("mtl: illum says which coefficients are mirrors and glass") {
   for (int illum = 0; illum <= 10; ++illum) {
     CAPTURE(illum);
-    const MtlFile mtl = parsed("newmtl m\nillum " + std::to_string(illum) + "\nKs .1 .2 .3\nTf .4 .5 .6\n");
+    const MtlFile mtl =
+        parsed_mtl("newmtl m\nillum " + std::to_string(illum) + "\nKs .1 .2 .3\nTf .4 .5 .6\n");
     const bool mirrors = illum == 3 || illum == 5 || illum == 7, transmits = illum == 6 || illum == 7;
     CHECK(mtl.materials.at(0).reflect == (mirrors ? dvec3(0.1, 0.2, 0.3) : dvec3(0)));
     CHECK(mtl.materials.at(0).refract == (transmits ? dvec3(0.4, 0.5, 0.6) : dvec3(0)));
@@ -71,7 +72,7 @@ TEST_CASE("mtl: illum says which coefficients are mirrors and glass") {
 }
 
 TEST_CASE("mtl: one warning names all that is passed over") {
-  const MtlFile mtl = parsed(
+  const MtlFile mtl = parsed_mtl(
       "newmtl a\nd 0.5\nmap_Kd wood.png\nKe 1 1 1\nillum 7\n"
       "newmtl b\nd 1\nTr 0\nillum 4\nnewmtl a\nKd 1\n");
   REQUIRE(mtl.warnings.size() == 1);
@@ -82,7 +83,7 @@ TEST_CASE("mtl: one warning names all that is passed over") {
 
   std::string text = "newmtl a\n";
   for (int i = 0; i < 17; ++i) text += "x" + std::to_string(i) + " 1\n";
-  CHECK(ends_with(parsed(text).warnings.at(0), ", x14, x15, and more"));
+  CHECK(ends_with(parsed_mtl(text).warnings.at(0), ", x14, x15, and more"));
 }
 
 TEST_CASE("mtl: mistakes name their line and column") {
@@ -109,7 +110,7 @@ TEST_CASE("mtl: mistakes name their line and column") {
   };
   for (const auto& [text, expected] : table) {
     CAPTURE(text);
-    CHECK(mistake(text) == expected);
+    CHECK(mistake_in_mtl(text) == expected);
   }
 }
 

@@ -11,6 +11,8 @@
 #include <set>
 #include <utility>
 
+#include "tests/support/scenes.h"
+
 using namespace sidelight;
 using glm::dvec3;
 
@@ -48,13 +50,6 @@ std::vector<Shape> shapes() {
   return all;
 }
 
-Scene scene_of(const PolygonMesh& mesh) {
-  Scene scene;
-  add_material(scene, {});
-  add_mesh(scene, mesh, {}, {"test", 1, 1});
-  return scene;
-}
-
 dvec3 corner(const Scene& scene, const Triangle& t, std::size_t k) { return scene.positions[t.vertex[k]]; }
 
 }  // namespace
@@ -62,7 +57,7 @@ dvec3 corner(const Scene& scene, const Triangle& t, std::size_t k) { return scen
 TEST_CASE("shapes: closed, with the formula's volume, and wound outward") {
   for (const Shape& shape : shapes()) {
     CAPTURE(shape.name);
-    const Scene scene = scene_of(shape.mesh);
+    const Scene scene = test::scene_of(shape.mesh);
     CHECK(scene.objects.at(0).closed);
     double volume = 0, size = 0;
     for (const Triangle& t : scene.triangles) {
@@ -82,7 +77,7 @@ TEST_CASE("shapes: as generated they are outward already") {
   for (const Shape& shape : shapes()) {
     CAPTURE(shape.name);
     // Were add_mesh to turn the mesh, its first triangle would not be the first face's.
-    const Scene scene = scene_of(shape.mesh);
+    const Scene scene = test::scene_of(shape.mesh);
     const PolygonMesh::Face& face = shape.mesh.faces[0];
     CHECK(scene.triangles[0].vertex[1] == shape.mesh.corners[face.first + 1].position);
   }
@@ -110,7 +105,7 @@ TEST_CASE("shapes: Euler characteristic, and no vertex to spare") {
 TEST_CASE("shapes: vertex normals are unit and on the outer side of their faces") {
   for (const Shape& shape : shapes()) {
     CAPTURE(shape.name);
-    const Scene scene = scene_of(shape.mesh);
+    const Scene scene = test::scene_of(shape.mesh);
     std::size_t smooth = 0;
     for (const Triangle& t : scene.triangles) {
       if (t.normal[0] == kNone) continue;
@@ -143,7 +138,7 @@ TEST_CASE("shapes: quarter turns are exact") {
 }
 
 TEST_CASE("shapes: a cone's side normals are square to its side") {
-  const Scene scene = scene_of(make_cone(2, 5, 16));
+  const Scene scene = test::scene_of(make_cone(2, 5, 16));
   for (const Triangle& t : scene.triangles) {
     if (t.normal[0] == kNone) continue;
     // Face corners are base, apex, base: the line to the apex lies in the cone's surface at the base corner.

@@ -13,6 +13,9 @@
 
 namespace sidelight::test {
 
+// From 1 to the next double, and to the next float.
+inline constexpr double kEps = 0x1p-52, kFloatEps = 0x1p-23;
+
 // Equal to any vector whose components are each within `tolerance`, absolutely; never to one with a NaN.
 struct Near {
   glm::dvec3 value;

@@ -157,6 +157,13 @@ class Workplace {
   TemporaryFolder folder_;
 };
 
+// good.toml as a small picture.
+inline const Arguments kSmall{"good.toml", "-r", "16x12"};
+inline Arguments render_small(const Arguments& more) { return Arguments{"render"} + kSmall + more; }
+inline Arguments compare_small(const std::string& folder, const Arguments& more = {}) {
+  return Arguments{"compare"} + kSmall + Arguments{"-o", folder} + more;
+}
+
 inline std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> out;
   for (std::size_t at = 0; at < text.size();) {

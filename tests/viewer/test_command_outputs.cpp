@@ -13,16 +13,9 @@ using namespace sidelight::test;
 
 namespace {
 
-const Arguments kSmall{"good.toml", "-r", "16x12"};
-
 const std::vector<std::string> kCompareFiles{"causes.png",   "compare.json", "difference.png",
                                              "raster.exr",   "raster.png",   "raytrace.exr",
                                              "raytrace.png", "report.html",  "side_by_side.png"};
-
-Arguments render(const Arguments& more) { return Arguments{"render"} + kSmall + more; }
-Arguments compare_into(const std::string& folder, const Arguments& more = {}) {
-  return Arguments{"compare"} + kSmall + Arguments{"-o", folder} + more;
-}
 
 // The keys of an object and of those in it, as "rays.shadow", in the order of the file.
 std::vector<std::string> keys(const nlohmann::ordered_json& json, const std::string& prefix = "") {
@@ -47,29 +40,29 @@ void check_not_written(const Outcome& outcome) {
 TEST_CASE("exit code 7: a file where the folder should be") {
   const Workplace here;
   write_bytes(here / "out", "a plain file");
-  check_not_written(here.run(compare_into("out", {"-q"})));
-  check_not_written(here.run(compare_into("out/deeper", {"-q"})));
-  check_not_written(here.run(render({"-q", "-o", "out/a.png"})));
+  check_not_written(here.run(compare_small("out", {"-q"})));
+  check_not_written(here.run(compare_small("out/deeper", {"-q"})));
+  check_not_written(here.run(render_small({"-q", "-o", "out/a.png"})));
   CHECK(read_bytes(here / "out") == "a plain file");
 }
 
 TEST_CASE("exit code 7: a folder that is missing or takes the file's name") {
   const Workplace here;
-  check_not_written(here.run(render({"-q", "-o", "missing/a.exr"})));
-  check_not_written(here.run(render({"-q", "-o", "a.png", "--stats", "missing/a.json"})));
+  check_not_written(here.run(render_small({"-q", "-o", "missing/a.exr"})));
+  check_not_written(here.run(render_small({"-q", "-o", "a.png", "--stats", "missing/a.json"})));
   CHECK(here.made() == std::vector<std::string>{"a.png"});  // the picture was finished before
   std::filesystem::create_directory(here / "b.exr");
-  check_not_written(here.run(render({"-q", "-o", "b.exr"})));
+  check_not_written(here.run(render_small({"-q", "-o", "b.exr"})));
   CHECK(here.names("b.exr").empty());
 }
 
 TEST_CASE("exit code 7: a full disk") {
   const Workplace here;
-  check_not_written(here.run(render({"-q", "-o", "a.png", "--stats", "/dev/full"})));
+  check_not_written(here.run(render_small({"-q", "-o", "a.png", "--stats", "/dev/full"})));
   std::filesystem::create_symlink("/dev/full", here / "full.png");
-  check_not_written(here.run(render({"-q", "-o", "full.png"})));
-  check_not_written(
-      here.run_in_shell("exec \"$0\" \"$@\" > /dev/full", render({"-q", "-o", "a.png", "--stats", "-"})));
+  check_not_written(here.run(render_small({"-q", "-o", "full.png"})));
+  check_not_written(here.run_in_shell("exec \"$0\" \"$@\" > /dev/full",
+                                      render_small({"-q", "-o", "a.png", "--stats", "-"})));
   check_not_written(here.run_in_shell("exec \"$0\" \"$@\" > /dev/full", Arguments{"info"} + kSmall));
 }
 
@@ -79,19 +72,21 @@ TEST_CASE("exit code 7: a limit on the size of files leaves finished files only"
 #else
   const Workplace here;
   // One block of 512 bytes: no picture fits. 8: some do, and those are whole.
-  check_not_written(here.run_in_shell("ulimit -f 1; exec \"$0\" \"$@\"", render({"-q", "-o", "a.exr"})));
+  check_not_written(
+      here.run_in_shell("ulimit -f 1; exec \"$0\" \"$@\"", render_small({"-q", "-o", "a.exr"})));
   CHECK(here.made().empty());
 
-  REQUIRE(here.run(compare_into("whole", {"-q", "--no-times"})).code == 0);
+  REQUIRE(here.run(compare_small("whole", {"-q", "--no-times"})).code == 0);
   check_not_written(
-      here.run_in_shell("ulimit -f 8; exec \"$0\" \"$@\"", compare_into("part", {"-q", "--no-times"})));
+      here.run_in_shell("ulimit -f 8; exec \"$0\" \"$@\"", compare_small("part", {"-q", "--no-times"})));
   for (const std::string& name : here.names("part")) {
     CAPTURE(name);
     CHECK(read_bytes(here / ("part/" + name)) == read_bytes(here / ("whole/" + name)));
   }
 
   write_bytes(here / "old.exr", "an older picture");
-  check_not_written(here.run_in_shell("ulimit -f 1; exec \"$0\" \"$@\"", render({"-q", "-o", "old.exr"})));
+  check_not_written(
+      here.run_in_shell("ulimit -f 1; exec \"$0\" \"$@\"", render_small({"-q", "-o", "old.exr"})));
   CHECK(read_bytes(here / "old.exr") == "an older picture");
 #endif
 }
@@ -111,9 +106,9 @@ TEST_CASE("exit code 7: a driver without OpenGL 3.3") {
 
 TEST_CASE("output: nothing on standard output unasked and nothing at all with -q") {
   const Workplace here;
-  CHECK(here.run(render({"-o", "a.png"})).out.empty());
-  CHECK(here.run(compare_into("out")).out.empty());
-  for (const Arguments& quiet : {render({"-o", "a.png", "-q"}), compare_into("out", {"-q"})}) {
+  CHECK(here.run(render_small({"-o", "a.png"})).out.empty());
+  CHECK(here.run(compare_small("out")).out.empty());
+  for (const Arguments& quiet : {render_small({"-o", "a.png", "-q"}), compare_small("out", {"-q"})}) {
     const Outcome outcome = here.run(quiet);
     CHECK(outcome.code == 0);
     CHECK(outcome.out.empty());
@@ -124,7 +119,7 @@ TEST_CASE("output: nothing on standard output unasked and nothing at all with -q
 TEST_CASE("output: SIDELIGHT_ISA names a narrower instruction set, --isa has the last word") {
   const Workplace here;
   const auto isa = [&](const std::string& named, const Arguments& more = {}) {
-    const Arguments asked = render({"-q", "-o", "a.png", "--stats", "-"}) + more;
+    const Arguments asked = render_small({"-q", "-o", "a.png", "--stats", "-"}) + more;
     const Outcome outcome =
         here.command(Arguments{"env", "SIDELIGHT_ISA=" + named, SIDELIGHT_BINARY} + asked);
     REQUIRE(outcome.code == 0);
@@ -137,7 +132,8 @@ TEST_CASE("output: SIDELIGHT_ISA names a narrower instruction set, --isa has the
 
 TEST_CASE("output: the statistics have the documented keys") {
   const Workplace here;
-  const Outcome outcome = here.run(render({"-o", "a.png", "--spp", "4", "--repeat", "2", "--stats", "-"}));
+  const Outcome outcome =
+      here.run(render_small({"-o", "a.png", "--spp", "4", "--repeat", "2", "--stats", "-"}));
   REQUIRE(outcome.code == 0);
   const auto json = nlohmann::ordered_json::parse(outcome.out);
   CHECK(keys(json) == std::vector<std::string>{"renderer",        "primary",
@@ -170,7 +166,8 @@ TEST_CASE("output: the statistics have the documented keys") {
   CHECK(json["cut_weight"] > 0);
 
   write_bytes(here / "good.toml", "trace.contribution_cut = 0\n" + kGoodScene);
-  const Outcome cut = here.run(render({"-o", "a.png", "--no-reflection", "--depth", "3", "--stats", "-"}));
+  const Outcome cut =
+      here.run(render_small({"-o", "a.png", "--no-reflection", "--depth", "3", "--stats", "-"}));
   REQUIRE(cut.code == 0);
   const auto some = nlohmann::json::parse(cut.out);
   CHECK(some["rays"]["reflection"] == 0);
@@ -181,7 +178,7 @@ TEST_CASE("output: the statistics have the documented keys") {
 TEST_CASE("output: the z-buffer's statistics tell where its time goes") {
   const Workplace here;
   const Outcome outcome =
-      here.run(render({"-o", "a.png", "--renderer", "raster", "-j", "1", "--stats", "-"}));
+      here.run(render_small({"-o", "a.png", "--renderer", "raster", "-j", "1", "--stats", "-"}));
   REQUIRE(outcome.code == 0);
   const auto json = nlohmann::ordered_json::parse(outcome.out);
   std::vector<std::string> stages;
@@ -198,7 +195,7 @@ TEST_CASE("output: the z-buffer's statistics tell where its time goes") {
 
 TEST_CASE("output: compare writes its nine files and the documented keys") {
   const Workplace here;
-  REQUIRE(here.run(compare_into("out")).code == 0);
+  REQUIRE(here.run(compare_small("out")).code == 0);
   CHECK(here.names("out") == kCompareFiles);
   const std::string text = read_bytes(here / "out/compare.json");
   const auto json = nlohmann::ordered_json::parse(text);
@@ -231,13 +228,13 @@ TEST_CASE("output: compare writes its nine files and the documented keys") {
   CHECK(read_image(here / "out/raster.exr").metadata.at("renderer") == "raster");
   CHECK(read_image(here / "out/raytrace.exr").metadata.at("renderer") == "raytrace");
 
-  REQUIRE(here.run(compare_into("local", {"--local"})).code == 0);
+  REQUIRE(here.run(compare_small("local", {"--local"})).code == 0);
   const auto equal = nlohmann::ordered_json::parse(read_bytes(here / "local/compare.json"));
   CHECK(equal["metrics"]["psnr"].is_null());  // identical
   CHECK(equal["metrics"]["max"]["value"] == 0);
   CHECK(read_bytes(here / "local/report.html").find(" --local --pixel ") != std::string::npos);
 
-  REQUIRE(here.run(compare_into("part", {"--crop", "4,2,16,12"})).code == 0);
+  REQUIRE(here.run(compare_small("part", {"--crop", "4,2,16,12"})).code == 0);
   const auto part = nlohmann::ordered_json::parse(read_bytes(here / "part/compare.json"));
   CHECK(part.at("crop") == nlohmann::ordered_json::array({4, 2, 16, 12}));
 
@@ -251,8 +248,8 @@ TEST_CASE("output: compare writes its nine files and the documented keys") {
 
 TEST_CASE("output: without times two runs write the same bytes") {
   const Workplace here;
-  REQUIRE(here.run(compare_into("first", {"--no-times", "-j", "1"})).code == 0);
-  REQUIRE(here.run(compare_into("second", {"--no-times", "-j", "2"})).code == 0);
+  REQUIRE(here.run(compare_small("first", {"--no-times", "-j", "1"})).code == 0);
+  REQUIRE(here.run(compare_small("second", {"--no-times", "-j", "2"})).code == 0);
   CHECK(here.names("second") == kCompareFiles);
   for (const std::string& name : kCompareFiles) {
     CAPTURE(name);

@@ -18,8 +18,6 @@ using namespace sidelight::test;
 
 namespace {
 
-const Arguments kSmall{"good.toml", "-r", "16x12"};
-
 std::string joined(const Arguments& arguments) {
   std::string out;
   for (const std::string& each : arguments) out += each + ' ';

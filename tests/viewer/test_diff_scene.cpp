@@ -15,12 +15,12 @@ using Json = nlohmann::json;
 
 namespace {
 
-const Arguments kSmall{"-r", "40x30", "-q"};
+const Arguments kTiny{"-r", "40x30", "-q"};
 
 // Makes theirs.exr (or another) by one of our renderers.
 void render(const Workplace& here, const std::string& scene, const Arguments& more,
             const std::string& file = "theirs.exr") {
-  REQUIRE(here.run(Arguments{"render", scene, "-o", file} + kSmall + more).code == 0);
+  REQUIRE(here.run(Arguments{"render", scene, "-o", file} + kTiny + more).code == 0);
 }
 
 Json account(const Workplace& here, const std::string& scene, const Arguments& more = {},

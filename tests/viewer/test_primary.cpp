@@ -7,22 +7,12 @@
 using namespace sidelight;
 using namespace sidelight::test;
 
-namespace {
-
-const Arguments kSmall{"good.toml", "-r", "16x12"};
-
-Arguments render(const Arguments& more) { return Arguments{"render"} + kSmall + more; }
-Arguments compare_into(const std::string& folder, const Arguments& more) {
-  return Arguments{"compare"} + kSmall + Arguments{"-o", folder} + more;
-}
-
-}  // namespace
-
 TEST_CASE("output: surfaces found by the z-buffer give the same picture, which says so") {
   const Workplace here;
-  REQUIRE(here.run(render({"-q", "-o", "rays.exr", "--layers", "depth,primitive,shadow"})).code == 0);
-  const Outcome outcome = here.run(render({"-q", "-o", "raster.exr", "--layers", "depth,primitive,shadow",
-                                           "--primary", "raster", "--stats", "-"}));
+  REQUIRE(here.run(render_small({"-q", "-o", "rays.exr", "--layers", "depth,primitive,shadow"})).code == 0);
+  const Outcome outcome =
+      here.run(render_small({"-q", "-o", "raster.exr", "--layers", "depth,primitive,shadow", "--primary",
+                             "raster", "--stats", "-"}));
   REQUIRE(outcome.code == 0);
   CHECK(here.run({"diff", "rays.exr", "raster.exr"}).code == 0);
   const auto json = nlohmann::ordered_json::parse(outcome.out);
@@ -32,7 +22,7 @@ TEST_CASE("output: surfaces found by the z-buffer give the same picture, which s
   CHECK(json["stages_ms"]["raster"].get<double>() + json["stages_ms"]["raytrace"].get<double>() <=
         json["frame_ms"]["max"]);
 
-  const Outcome compared = here.run(compare_into("out", {"--primary", "raster"}));
+  const Outcome compared = here.run(compare_small("out", {"--primary", "raster"}));
   CHECK(compared.code == 0);
   CHECK(compared.err.find("took the z-buffer's surfaces") != std::string::npos);
   CHECK(nlohmann::ordered_json::parse(read_bytes(here / "out/compare.json"))["primary"] == "raster");
@@ -48,9 +38,10 @@ TEST_CASE("exit code 2: surfaces found by the z-buffer where they cannot serve")
     CHECK(outcome.err.find(word) != std::string::npos);
     CHECK(here.made().empty());
   };
-  refused(render({"-o", "a.png", "--renderer", "raster"}), "is for the renderer 'raytrace'");
-  refused(render({"-o", "a.png", "--renderer", "raytrace-reference"}), "is for the renderer 'raytrace'");
-  refused(render({"-o", "a.png", "--shadow-offset", "0.1"}), "no faults on purpose");
-  refused(compare_into("out", {"--snap-bits", "2"}), "no faults on purpose");
-  refused(render({"-o", "a.exr", "--layers", "cost"}), "with --primary raster does not make");
+  refused(render_small({"-o", "a.png", "--renderer", "raster"}), "is for the renderer 'raytrace'");
+  refused(render_small({"-o", "a.png", "--renderer", "raytrace-reference"}),
+          "is for the renderer 'raytrace'");
+  refused(render_small({"-o", "a.png", "--shadow-offset", "0.1"}), "no faults on purpose");
+  refused(compare_small("out", {"--snap-bits", "2"}), "no faults on purpose");
+  refused(render_small({"-o", "a.exr", "--layers", "cost"}), "with --primary raster does not make");
 }

@@ -11,7 +11,7 @@ using namespace sidelight::test;
 
 namespace {
 
-const Arguments kSmall{"-r", "16x12"};
+const Arguments kSize{"-r", "16x12"};
 std::string long_render() { return test::tier_value("long_render"); }
 
 // Every verb that needs no display, on a scene, with all its output in files but what the verb is for.
@@ -26,7 +26,7 @@ std::vector<Arguments> every_verb(const std::string& scene) {
 #ifdef SIDELIGHT_HAVE_OSMESA
   commands.push_back({"view", scene, "--screenshot", "view.png"});
 #endif
-  for (Arguments& command : commands) command = command + kSmall;
+  for (Arguments& command : commands) command = command + kSize;
   return commands;
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("streams: standard output is data only, for the verbs that have some")
   }
   for (const Arguments& command : {Arguments{"explain", "warned.toml", "--pixel", "8,6", "--json", "-"},
                                    Arguments{"render", "warned.toml", "-o", "a.png", "--stats", "-"}})
-    CHECK(nlohmann::json::parse(here.run(command + kSmall).out).is_object());
+    CHECK(nlohmann::json::parse(here.run(command + kSize).out).is_object());
 }
 
 TEST_CASE("streams: no bar and no colour where there is no terminal") {
@@ -115,9 +115,9 @@ sys.exit(render.wait() & 255))";
 TEST_CASE("streams: data that standard output does not take is exit code 7") {
   const Workplace here;
   for (const Arguments& command :
-       {Arguments{"info", "good.toml"} + kSmall, Arguments{"explain", "good.toml", "--pixel", "8,6"} + kSmall,
-        Arguments{"explain", "good.toml", "--pixel", "8,6", "--json", "-"} + kSmall,
-        Arguments{"render", "good.toml", "-o", "a.png", "--stats", "-"} + kSmall, Arguments{"--help"},
+       {Arguments{"info", "good.toml"} + kSize, Arguments{"explain", "good.toml", "--pixel", "8,6"} + kSize,
+        Arguments{"explain", "good.toml", "--pixel", "8,6", "--json", "-"} + kSize,
+        Arguments{"render", "good.toml", "-o", "a.png", "--stats", "-"} + kSize, Arguments{"--help"},
         Arguments{"render", "--help"}, Arguments{"--version"}}) {
     CAPTURE(command[0]);
     for (const char* where : {"exec \"$0\" \"$@\" > /dev/full", "exec \"$0\" \"$@\" >&-"}) {
@@ -138,21 +138,21 @@ TEST_CASE("streams: a full standard error takes nothing from the exit code") {
   };
   CHECK(code({"info", "no_such.toml"}) == 3);
   CHECK(code({"paint"}) == 2);
-  CHECK(code(Arguments{"render", "good.toml", "-o", "missing/a.png"} + kSmall) == 7);
-  CHECK(code(Arguments{"render", "warned.toml", "-o", "a.png", "-q"} + kSmall) == 0);
-  CHECK(code(Arguments{"render", "warned.toml", "-o", "a.png"} + kSmall) ==
+  CHECK(code(Arguments{"render", "good.toml", "-o", "missing/a.png"} + kSize) == 7);
+  CHECK(code(Arguments{"render", "warned.toml", "-o", "a.png", "-q"} + kSize) == 0);
+  CHECK(code(Arguments{"render", "warned.toml", "-o", "a.png"} + kSize) ==
         7);  // the warning cannot be written
 }
 
 TEST_CASE("streams: closed ones do no harm to files that are written meanwhile") {
   const Workplace here;
-  REQUIRE(here.run(Arguments{"render", "good.toml", "-o", "open.exr"} + kSmall).code == 0);
+  REQUIRE(here.run(Arguments{"render", "good.toml", "-o", "open.exr"} + kSize).code == 0);
   const Outcome outcome = here.run_in_shell("exec \"$0\" \"$@\" <&- >&- 2>&-",
-                                            Arguments{"render", "good.toml", "-o", "closed.exr"} + kSmall);
+                                            Arguments{"render", "good.toml", "-o", "closed.exr"} + kSize);
   CHECK(outcome.code == 0);
   CHECK(read_bytes(here / "closed.exr") == read_bytes(here / "open.exr"));
   write_warned_scene(here);
-  const Arguments compare = Arguments{"compare", "warned.toml", "--no-times"} + kSmall;
+  const Arguments compare = Arguments{"compare", "warned.toml", "--no-times"} + kSize;
   REQUIRE(here.run(compare + Arguments{"-o", "open"}).code == 0);
   CHECK(here.run_in_shell("exec \"$0\" \"$@\" >&- 2>&-", compare + Arguments{"-o", "closed"}).code == 0);
   for (const std::string& name : here.names("open")) {
