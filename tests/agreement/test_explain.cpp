@@ -38,6 +38,22 @@ void check_leaves(const RayRecord& root) {
   for (int c = 0; c < 3; ++c) CHECK(std::abs(sum[c] - static_cast<double>(root.color[c])) <= bound * size[c]);
 }
 
+// Of each ray its place in the tree; of a light that is missing why: something stands in between, or else the surface
+// stands in its own light.
+void check_rays(const RayRecord& ray) {
+  for (const LightRecord& light : ray.local.lights) {
+    CHECK((!light.seen || light.blocker == kNone));
+    CHECK(light.self_shadowed == (!light.seen && light.blocker == kNone));
+  }
+  for (const RayRecord& child : ray.children) {
+    const glm::vec3& c = child.coefficient;
+    const double weight = ray.path_weight * static_cast<double>(std::max({c.x, c.y, c.z}));
+    CHECK(child.path_weight == doctest::Approx(weight).epsilon(1e-6));
+    CHECK((!child.sent || child.depth == ray.depth + 1));
+    check_rays(child);
+  }
+}
+
 void check_scene(const std::string& file, std::uint64_t seed) {
   CAPTURE(file);
   const Scene scene = load_scene(file);
@@ -69,6 +85,7 @@ void check_scene(const std::string& file, std::uint64_t seed) {
     const RayRecord why_deep = raytrace::explain(*tracer, camera, x, y);
     CHECK(why_deep.color == deep.color[at]);
     check_leaves(why_deep);
+    check_rays(why_deep);
   }
 }
 
