@@ -3,6 +3,8 @@
 // is crossed with it, none near to where rays leave, and that a ray into the surface passes it first and alone.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "common/model/surface.h"
 #include "raytrace/clearings.h"
 #include "raytrace/lone_hit.h"
@@ -19,11 +21,11 @@ using raytrace::Prepared;
 namespace {
 
 // Closed meshes and balls of glass, and next to their surfaces, at all distances down to rounding, sheets, balls and planes.
-Scene crowded_scene(Random& random) {
+// `crowd`: points on surfaces, where these are.
+Scene crowded_scene(Random& random, std::vector<glm::dvec3>& crowd) {
   Scene scene = empty_scene();
   scene.materials[0].refract = glm::dvec3(0.5);
   const double far = random.uniform() < 0.3 ? random.log_uniform(1, 1e6) : 0;
-  std::vector<glm::dvec3> crowd;  // points on surfaces
   for (int i = 0; i < 3; ++i) {
     PolygonMesh mesh = i == 0 ? octahedron({0, 0, 0}, 1) : star_sphere(8, 9, 0.3, random.bits());
     const glm::dvec3 at = far + random.in_box(2);
@@ -68,6 +70,41 @@ std::uint64_t others_up_to(const Scene& scene, const Ray& ray, std::uint32_t own
   return others;
 }
 
+double distance_to_edge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& point) {
+  const double along = glm::dot(point - a, b - a) / glm::dot(b - a, b - a);
+  return glm::distance(point, glm::mix(a, b, std::clamp(along, 0.0, 1.0)));
+}
+
+// Of the primitive from a point.
+double distance_to(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point) {
+  const PrimitiveRef ref = primitive_ref(scene, primitive);
+  if (ref.kind == ObjectKind::sphere) {
+    const Sphere& sphere = scene.spheres[ref.index];
+    return std::abs(glm::distance(point, sphere.center) - sphere.radius);
+  }
+  if (ref.kind == ObjectKind::plane)
+    return std::abs(glm::dot(scene.planes[ref.index].normal, point - scene.planes[ref.index].point));
+  const auto [v0, v1, v2] = corners(scene, scene.triangles[ref.index]);
+  const glm::dvec3 n = glm::cross(v1 - v0, v2 - v0);
+  const auto inside = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::dot(glm::cross(b - a, point - a), n) >= 0;
+  };
+  if (inside(v0, v1) && inside(v1, v2) && inside(v2, v0))
+    return std::abs(glm::dot(point - v0, glm::normalize(n)));
+  return std::min(
+      {distance_to_edge(v0, v1, point), distance_to_edge(v1, v2, point), distance_to_edge(v2, v0, point)});
+}
+
+// How many others have a point as near to the hit as none has where it is lone or clear.
+std::uint64_t others_near(const Prepared& prepared, const Ray& ray, const Hit& hit) {
+  const double room = raytrace::room_for(prepared.reach_from(ray.origin), hit.t * glm::length(ray.direction));
+  std::uint64_t near = 0;
+  for (std::uint32_t other = 0; other < prepared.scene.primitive_object.size(); ++other)
+    near += other != hit.primitive &&
+            distance_to(prepared.scene, other, ray.origin + hit.t * ray.direction) <= room;
+  return near;
+}
+
 // A ray into the surface from where rays start that leave.
 void check_passes(const Prepared& prepared, const Place& place, const Hit& hit, Random& random) {
   const Scene& scene = prepared.scene;
@@ -95,6 +132,7 @@ void check_lone(const Prepared& prepared, const Ray& ray, const Hit& hit, Lone l
   for (std::uint32_t primitive = 0; primitive < scene.primitive_object.size(); ++primitive)
     near += stands_near(scene, primitive, ray, hit, place, counts);
   CHECK(near == 0);
+  CHECK(others_near(prepared, ray, hit) == 0);
   check_passes(prepared, place, hit, random);
 }
 
@@ -121,45 +159,40 @@ Scene touching_balls(Random& random, std::vector<glm::dvec3>& touching) {
   return scene;
 }
 
-// Of the primitive from a point; of a triangle, its corners.
-double distance_to(const Scene& scene, std::uint32_t primitive, const glm::dvec3& point) {
-  const PrimitiveRef ref = primitive_ref(scene, primitive);
-  if (ref.kind == ObjectKind::sphere) {
-    const Sphere& sphere = scene.spheres[ref.index];
-    return std::abs(glm::distance(point, sphere.center) - sphere.radius);
-  }
-  if (ref.kind == ObjectKind::plane)
-    return std::abs(glm::dot(scene.planes[ref.index].normal, point - scene.planes[ref.index].point));
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t vertex : scene.triangles[ref.index].vertex)
-    least = std::min(least, glm::distance(point, scene.positions[vertex]));
-  return least;
-}
-
 }  // namespace
 
 TEST_CASE("lone hits: brute force finds nothing else there") {
   Random random(94);
   std::uint64_t hits = 0, lone_hits = 0, clear = 0;
   for (std::uint64_t left = 1 + tier_count("rays_per_case") / 2000; left > 0; --left) {
-    const Scene scene = crowded_scene(random);
+    std::vector<glm::dvec3> crowd;
+    const Scene scene = crowded_scene(random, crowd);
     const Prepared prepared(scene);
     VisibilityCounts counts;
     Clearings clearings(prepared, 1);
     for (int i = 0; i < 100; ++i) {
       const auto& triangle =
           scene.triangles[random.below(static_cast<std::uint32_t>(scene.triangles.size()))];
-      // At a triangle, or past its edge and vertices, as near as it comes.
-      const double a = random.uniform(), b = random.uniform() < 0.3 ? random.log_uniform(1e-17, 1) : a;
-      const glm::dvec3 target =
-          glm::mix(scene.positions[triangle.vertex[0]],
-                   glm::mix(scene.positions[triangle.vertex[1]], scene.positions[triangle.vertex[2]], a), b);
-      const glm::dvec3 from = target + random.log_uniform(1e-3, 1e3) * random.direction();
+      // At a triangle, or past its edge and vertices, as near as it comes, or where others are.
+      const double a = random.uniform(), kind = random.uniform(), near = random.log_uniform(1e-17, 1);
+      const double b = kind < 0.2 ? near : kind < 0.4 ? 1 - near : a;
+      const std::uint32_t k = random.below(3);
+      glm::dvec3 target = glm::mix(scene.positions[triangle.vertex[k]],
+                                   glm::mix(scene.positions[triangle.vertex[(k + 1) % 3]],
+                                            scene.positions[triangle.vertex[(k + 2) % 3]], a),
+                                   b);
+      if (kind > 0.8)
+        target = crowd[random.below(static_cast<std::uint32_t>(crowd.size()))] + near * random.direction();
+      const double way = kind < 0.3 ? 3.5 * prepared.reach : random.log_uniform(1e-3, 1e3);
+      const glm::dvec3 from = target + way * random.direction();
       const Ray ray = make_ray(from, random.uniform() < 0.5 ? target - from : random.direction());
       for (Hit hit = nearest(prepared, ray, kRayStart, counts); hit.found();
            hit = nearest(prepared, ray, hit, counts)) {
         const Lone lone = lone_hit(prepared, ray, hit, best_isa(), &clearings);
-        clear += is_clear(prepared, ray, hit, clearings);
+        if (is_clear(prepared, ray, hit, clearings)) {
+          ++clear;
+          CHECK(others_near(prepared, ray, hit) == 0);
+        }
         for (const Isa isa : kIsas) {
           if (!machine_has(isa)) continue;
           const Lone searched = lone_hit(prepared, ray, hit, isa);
@@ -175,7 +208,7 @@ TEST_CASE("lone hits: brute force finds nothing else there") {
     }
   }
   CHECK(lone_hits > hits / 2);
-  CHECK(clear > hits / 8);
+  CHECK(clear > hits / 16);
 }
 
 TEST_CASE("lone hits: where a ball is clear brute force finds nothing near") {
@@ -191,7 +224,8 @@ TEST_CASE("lone hits: where a ball is clear brute force finds nothing near") {
     for (int i = 0; i < 200; ++i) {
       const glm::dvec3 at = touching[random.below(static_cast<std::uint32_t>(touching.size()))];
       const glm::dvec3 target = at + random.log_uniform(1e-8, 1) * random.direction();
-      const glm::dvec3 from = target + prepared.reach * random.log_uniform(1e-2, 3) * random.direction();
+      const double way = random.uniform() < 0.1 ? 300 : random.log_uniform(1e-2, 3);
+      const glm::dvec3 from = target + prepared.reach * way * random.direction();
       const Ray ray = make_ray(from, target - from);
       const Hit hit = nearest(prepared, ray, kRayStart, counts);
       if (!hit.found() || primitive_ref(scene, hit.primitive).kind != ObjectKind::sphere) continue;
@@ -199,17 +233,14 @@ TEST_CASE("lone hits: where a ball is clear brute force finds nothing near") {
       if (!is_clear(prepared, ray, hit, clearings)) continue;
       ++clear;
       const Place place = locate(scene, ray, hit, counts);
-      const double room = raytrace::room_for(prepared.reach_from(from), hit.t * glm::length(ray.direction));
       std::uint64_t near = 0;
-      for (std::uint32_t other = 0; other < scene.primitive_object.size(); ++other) {
-        if (other == hit.primitive) continue;
-        near += stands_near(scene, other, ray, hit, place, counts);
-        near += distance_to(scene, other, ray.origin + hit.t * ray.direction) <= room;
-      }
+      for (std::uint32_t other = 0; other < scene.primitive_object.size(); ++other)
+        near += other != hit.primitive && stands_near(scene, other, ray, hit, place, counts);
       CHECK(near == 0);
+      CHECK(others_near(prepared, ray, hit) == 0);
     }
   }
-  CHECK(clear > hits / 2);
+  CHECK(clear > hits / 3);
   CHECK(clear < hits);
 }
 
@@ -217,7 +248,8 @@ TEST_CASE("lone hits: inside a secluded ball brute force finds its far side") {
   Random random(96);
   std::uint64_t secluded = 0;
   for (std::uint64_t left = 20 + tier_count("rays_per_case") / 1000; left > 0; --left) {
-    const Scene scene = crowded_scene(random);
+    std::vector<glm::dvec3> crowd;
+    const Scene scene = crowded_scene(random, crowd);
     const Prepared prepared(scene);
     for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
       if (!prepared.secluded[i]) continue;
