@@ -5,8 +5,10 @@
 
 #include <limits>
 
+#include "common/scene/shapes.h"
 #include "raytrace/prepared.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/rays.h"
 #include "tests/support/scenes.h"
 #include "tests/tier.h"
 
@@ -146,6 +148,39 @@ TEST_CASE("hits_between is every hit in the interval, in order, those at its end
   }
   CHECK(differing == 0);
   CHECK(found > 0);
+}
+
+// Into corners of planes, a box, a faceted ball and a smooth one, with several walls near at once.
+TEST_CASE("leaving_point is that of brute force where walls of every kind meet") {
+  Random random(7);
+  Scene scene = scene_of(star_sphere(8, 9, 0.3, 1));
+  add_mesh(scene, make_box({2, 2, 2}), {}, {});
+  add_plane(scene, {{0, -0.5, 0}, {0, 1, 0}, 0}, {});
+  add_plane(scene, {{0.5, 0, 0}, {1, 0, 0}, 0}, {});
+  add_sphere(scene, {{0.75, -0.75, 0}, 0.25, 0}, {});
+  const Prepared prepared(scene);
+  const auto vertices = static_cast<std::uint32_t>(scene.positions.size());
+  const auto coordinate = [&] {
+    return std::array{-1.0, -0.5, 0.5, 1.0, random.uniform(-1, 1)}[random.below(5)];
+  };
+  std::uint64_t differing = 0, moved = 0;
+  for (std::uint64_t left = 1 + tier_count("rays_per_case") / 100; left > 0; --left) {
+    const glm::dvec3 target = left % 2 == 0 ? scene.positions[random.below(vertices)]
+                                            : glm::dvec3(coordinate(), coordinate(), coordinate());
+    const glm::dvec3 eye = random.in_box(1);
+    const Ray ray = make_ray(eye, target - eye);
+    VisibilityCounts counts;
+    for (Hit hit = nearest(prepared, ray, kRayStart, counts); hit.found();
+         hit = nearest(prepared, ray, hit, counts)) {
+      const Place place = locate(scene, ray, hit, counts);
+      const glm::dvec3 from = start_of_leaving(scene, ray, hit, place, counts);
+      moved += from != place.point + place.clearance * place.facing;
+      for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+        differing += machine_has(isa) && leaving_point(prepared, ray, hit, place, counts, isa) != from;
+    }
+  }
+  CHECK(differing == 0);
+  CHECK(moved > 0);
 }
 
 TEST_CASE("what casts no shadow blocks nothing") {
