@@ -136,6 +136,8 @@ TEST_CASE("enclosed points: what lets rays out shuts nothing in") {
   scene.triangles[3].degenerate = false;
   scene.materials[0].casts_shadow = false;
   CHECK_FALSE(raytrace::shuts_in(scene, solid));
+  const Scene water = scene_of(Plane{{0, 0, 0}, {0, 1, 0}, 0});
+  CHECK_FALSE(raytrace::shuts_in(water, water.objects[0]));  // rays leave downward
 
   const Bounds bounds{glm::dvec3(-1), glm::dvec3(1)};
   CHECK(raytrace::is_outside(bounds, sun({0, 1, 0}, 1)));
