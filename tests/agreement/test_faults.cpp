@@ -194,6 +194,30 @@ TEST_CASE("faults: float decides wrongly far from the origin, in both renderers 
   CHECK(first_non_finite(deep) == "");
 }
 
+// A sheet hangs one above a floor, and a lamp above both: it hides the lamp from shadow rays that begin below it.
+TEST_CASE("faults: shadow rays begin as far from the surface as they are told, in float, too") {
+  const auto square = [](double y, double size) {
+    return mesh_of({{-size, y, -size}, {size, y, -size}, {size, y, size}, {-size, y, size}},
+                   {{0, 1, 2}, {0, 2, 3}});
+  };
+  Scene scene = scene_of(square(0, 4));
+  add_mesh(scene, square(1, 0.5), {}, {});
+  scene.lights = {lamp({0, 4, 0}, 1)};
+  scene.camera.eye = {3, 0.5, 0.1};
+  scene.camera.look_at = {0.1, 0, 0.1};
+  scene.camera.view_height = 0.1;
+  for (const bool in_float : {false, true})
+    for (const double offset : {0.1, 0.99, 1.02, 3.0}) {
+      CAPTURE(in_float);
+      CAPTURE(offset);
+      Faults faults;
+      faults.shadow_offset = offset;
+      faults.float_precision = in_float;
+      const Frame frame = traced(scene, make_camera(scene.camera, 1, 1, 1), with(faults, kRaytraceLayers));
+      CHECK((frame.layer(Layer::shadow)[0] == glm::vec3(0)) == (offset > 1.01));
+    }
+}
+
 TEST_CASE("faults: threads and tiles change no bit of a faulty picture") {
   const Scene scene = hard("depth-format");
   Faults faults;
