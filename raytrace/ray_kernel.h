@@ -50,6 +50,10 @@ struct Candidate {
   }
 };
 
+// Signs that are decided where a primitive is dropped: those of a triangle's edges.
+template <int kRows>
+inline constexpr std::uint32_t kSigns = kRows == TriangleLeaves::kRowCount ? 3 : 0;
+
 // Hands every primitive that may be met at a depth from `from` to `limit`, as far as the filter can tell, to
 // ask(candidate, limit), which returns the new limit.
 template <class F, class Filter, int kRows, class Ask>
@@ -62,7 +66,7 @@ template <class F, class Filter, int kRows, class Ask>
         const LeafVerdict verdict = filter(leaf, count, current);
         const auto dropped = count - static_cast<std::uint32_t>(std::popcount(verdict.may));
         counts.tests += dropped;  // the others are counted where they are asked
-        counts.filtered += 3 * dropped;
+        counts.filtered += kSigns<kRows> * dropped;
         for (std::uint32_t bits = verdict.may; bits != 0 && current >= 0; bits &= bits - 1) {
           const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
           const bool met = (verdict.must >> i & 1) != 0;
@@ -116,7 +120,7 @@ template <class F, class D, class Filter, int kRows, class Ask>
       dropped += count - static_cast<std::uint32_t>(std::popcount(verdict.may));
     }
     counts.tests += dropped;
-    counts.filtered += 3 * dropped;
+    counts.filtered += kSigns<kRows> * dropped;
     for (; asking != 0; asking &= asking - 1) {
       const auto r = static_cast<std::size_t>(std::countr_zero(asking));
       for (std::uint32_t bits = verdicts[r].may; bits != 0 && rays.limit[r] >= 0; bits &= bits - 1) {

@@ -3,10 +3,13 @@
 // ties and duplicates included (BVH-2, BVH-5).
 #include <doctest/doctest.h>
 
+#include <array>
 #include <limits>
 
 #include "common/scene/shapes.h"
+#include "raytrace/kernels.h"
 #include "raytrace/prepared.h"
+#include "tests/agreement/pictures.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/rays.h"
 #include "tests/support/scenes.h"
@@ -206,4 +209,48 @@ TEST_CASE("an empty scene, and one of planes or degenerate triangles alone, is t
               .empty());
   }
   CHECK(nearest(Prepared(floor), down, kRayStart, counts) == Hit{1, 0});
+}
+
+// The float filter decides all signs of a triangle that is clearly met, those of its edges where it is clearly missed; a
+// ball has none. A packet asks for a group of sixteen rays, and no side.
+TEST_CASE("what is asked is counted: a triangle and its signs, a ball") {
+  const Scene flat = scene_of_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+              ball = scene_of(Sphere{{0, 0, 0}, 1, 0});
+  const auto check = [](const VisibilityCounts& counts, std::uint64_t tests, std::uint64_t filtered) {
+    CHECK(counts.tests == tests);
+    CHECK(counts.filtered == filtered);
+    CHECK(counts.exact == 0);
+  };
+  const auto ask = [&](const Scene& scene, const glm::dvec3& target, bool met, std::uint64_t filtered) {
+    CAPTURE(met);
+    const Prepared prepared(scene);
+    const glm::dvec3 eye{0.25, 0.25, 3};
+    for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+      if (!machine_has(isa)) continue;
+      std::array<raytrace::RayQuestion, 1> questions;
+      questions[0].ray = make_ray(eye, target - eye);
+      questions[0].after = kRayStart;
+      VisibilityCounts alone, bundled;
+      CHECK(nearest(prepared, questions[0].ray, kRayStart, alone, raytrace::Precision::exact, isa).found() ==
+            met);
+      nearest_beside(prepared, questions, bundled, isa);
+      check(alone, 1, filtered);
+      check(bundled, 1, filtered);
+    }
+  };
+  ask(flat, {0.2, 0.2, 0}, true, 4);
+  ask(flat, {0.9, 0.9, 0}, false, 3);
+  ask(ball, {0.2, 0.2, 0}, true, 0);
+  ask(ball, {0.99, 0.99, 0}, false, 0);
+
+  CameraSettings camera;
+  camera.eye = {0.25, 0.25, 3};
+  camera.look_at = {0.25, 0.25, 0};
+  camera.view_height = 0.01;
+  check(traced(flat, make_camera(camera, 1, 1, 1)).stats.visibility, 16, 3 * 16);
+  Scene glass = empty_scene();
+  glass.materials[0].refract = glm::dvec3(0.5);
+  add_sphere(glass, {{0, 0, 0}, 1, 0}, {});
+  glass.trace.depth = 2;  // the second ray meets the ball's far side
+  check(traced(glass, make_camera(camera, 1, 1, 1)).stats.visibility, 16 + 1, 0);
 }
