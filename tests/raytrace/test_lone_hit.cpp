@@ -8,6 +8,7 @@
 #include "common/model/surface.h"
 #include "raytrace/clearings.h"
 #include "raytrace/lone_hit.h"
+#include "tests/agreement/pictures.h"
 #include "tests/support/rays.h"
 #include "tests/support/scenes.h"
 #include "tests/tier.h"
@@ -266,4 +267,30 @@ TEST_CASE("lone hits: inside a secluded ball brute force finds its far side") {
     }
   }
   CHECK(secluded > 20);
+}
+
+// A ball in a ball of the same glass is passed, and behind it rays leave where two mirrors meet.
+TEST_CASE("lone hits: that a surface was passed says nothing of what is met behind it") {
+  Random random(99);
+  for (int left = 10; left > 0; --left) {
+    Scene scene = empty_scene();
+    scene.materials[0].refract = glm::dvec3(0.9);
+    Material mirror;
+    mirror.name = "mirror";
+    mirror.ambient = mirror.reflect = glm::dvec3(0.8);
+    add_material(scene, mirror);
+    scene.ambient = glm::dvec3(1);
+    add_sphere(scene, {{0, 0, -2}, 0.5, 0}, {});
+    add_sphere(scene, {{0, 0, -3}, 2.5, 0}, {});
+    const double left_z = -4 + random.uniform(0.2, 2), right_z = -4 + random.uniform(0.2, 2);
+    PolygonMesh corner = mesh_of(
+        {{0, -1, -4}, {0, 1, -4}, {-1, 1, left_z}, {-1, -1, left_z}, {1, 1, right_z}, {1, -1, right_z}},
+        {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {0, 5, 4}});
+    for (PolygonMesh::Face& face : corner.faces) face.material = 1;
+    add_mesh(scene, corner, {}, {});
+    const auto prepared = raytrace::prepare(scene);
+    const Camera camera = plain_camera(37, 29, 0.3);
+    const Frame recursion = raytrace::render_recursively(*prepared, camera, {});
+    CHECK(differences(raytrace::render(*prepared, camera, {}), recursion) == "");
+  }
 }
