@@ -193,6 +193,29 @@ TEST_CASE("rays that leave an edge of a convex body start one clearance above it
   CHECK(moved == 0);
 }
 
+// Between two planes at so small an angle that no few steps aside bring a point off both.
+TEST_CASE("rays that leave a sharp corner start on the way that led into it") {
+  Random random(46);
+  VisibilityCounts counts;
+  for (int left = 100; left > 0; --left) {
+    const double slope = random.log_uniform(1e-4, 1e-1);
+    const glm::dvec3 corner = random.in_box(3),
+                     eye = corner + glm::dvec3(1, slope / 2, random.uniform(-1, 1));
+    Scene scene = scene_of(Plane{corner, {0, 1, 0}, 0});
+    add_plane(scene, {corner, glm::normalize(glm::dvec3(slope, -1, 0)), 0}, {});
+    const Ray ray = make_ray(eye, corner - eye);
+    const Hit hit = nearest_of_all(scene, ray, kRayStart, counts);
+    REQUIRE(hit.found());
+    const Place place = locate(scene, ray, hit, counts);
+    const glm::dvec3 from = start_of_leaving(scene, ray, hit, place, counts);
+    for (std::uint32_t plane = 0; plane < 2; ++plane)
+      CHECK(side_of(scene, plane, from, counts) == side_of(scene, plane, eye, counts));
+    const glm::dvec3 d = glm::normalize(ray.direction), off = from - corner;
+    CHECK(glm::length(off - glm::dot(off, d) * d) < 0x1p-50);
+    CHECK(glm::length(off) < 0x1p-40 / slope);
+  }
+}
+
 // A ray that has passed a sheet lies behind it, though it began before it.
 TEST_CASE("a start lies on the side from which the ray arrives, also of a surface that it has passed") {
   Scene scene = scene_of(Plane{{0, 0, 0}, {1, 0, 0}, 0});
