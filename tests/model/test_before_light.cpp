@@ -8,6 +8,7 @@
 
 #include "common/model/visibility.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/rays.h"
 #include "tests/support/scenes.h"
 #include "tests/support/wide.h"
 #include "tests/tier.h"
@@ -89,6 +90,19 @@ TEST_CASE("a light that lies on a surface is not behind it") {
   at.holds(
       "a sphere through the light does not block it, from either side",
       !blocks(ball_behind(10), point, light) && !blocks(scene_of(Sphere{{0, 0, 8}, 2, 0}), {0, 0, 7}, light));
+}
+
+TEST_CASE("a light that lies on a surface as far as doubles let it is not behind it, wherever that is") {
+  Random random(47);
+  std::uint64_t blocked = 0;
+  for (std::uint64_t left = 1 + tier_count("rays_per_case") / 10; left > 0; --left) {
+    const glm::dvec3 at = random.in_box(10), normal = random.direction(), along = across(normal, random);
+    const glm::dvec3 up = random.uniform(0.1, 10) * glm::normalize(normal + random.uniform() * along);
+    const glm::dvec3 beside = at + random.uniform() * along, pole = at + random.uniform(0.1, 5) * normal;
+    blocked += blocks(scene_of(Plane{at, normal, 0}), beside + up, beside);
+    blocked += blocks(scene_of(Sphere{at, glm::distance(at, pole), 0}), pole + up, pole);
+  }
+  CHECK(blocked == 0);
 }
 
 TEST_CASE("a sphere stands before a light on its far side, however small it is") {
