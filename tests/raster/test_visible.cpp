@@ -116,12 +116,13 @@ TEST_CASE("visible: sheets in one plane, whose depths differ in rounding at most
   const Camera camera = any_camera(random, 1);
   const glm::dvec3 across = random.direction(), along = random.direction(),
                    center = camera.eye + 3.0 * camera.forward;
-  for (const double size : {0.02, 0.2, 4.0}) {
-    CAPTURE(size);
+  for (const double same : {0.02, 0.2, 4.0, 0.0}) {  // 0: of all sizes, in any order
+    CAPTURE(same);
     std::vector<glm::dvec3> positions;
     std::vector<Face> faces;
-    for (std::uint32_t i = 0; i < 200; ++i) {
+    for (std::uint32_t i = 0; i < (same > 0 ? 200 : 4000); ++i) {
       const double u = random.uniform(-2, 2), v = random.uniform(-2, 2);
+      const double size = same > 0 ? same : i % 100 == 0 ? 4 : random.log_uniform(0.002, 0.5);
       for (int k = 0; k < 3; ++k)
         positions.push_back(center + (u + size * random.uniform(-1, 1)) * across +
                             (v + size * random.uniform(-1, 1)) * along);
@@ -181,6 +182,18 @@ TEST_CASE("visible: a lattice of 16384 columns, of which a corner is drawn") {
     faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   judged(scene_of(mesh_of(positions, faces)), camera, corner);
+}
+
+// Where nothing is doubtful.
+TEST_CASE("visible: a triangle's signs are counted, three a test and its side") {
+  for (const double size : {0.02, 0.1, 0.4}) {
+    CAPTURE(size);
+    const Scene scene = scene_of_triangle({0.003, 0.004, -1}, {0.003 + size, 0.0053, -1}, {0.0047, size, -1});
+    const VisibilityCounts counts = rastered(scene, plain_camera(64, 48)).stats.visibility;
+    CHECK(counts.tests > 0);
+    CHECK(counts.filtered == 3 * counts.tests + 1);
+    CHECK(counts.exact == 0);
+  }
 }
 
 TEST_CASE("visible: every pixel is written, whatever the frame's memory held") {
