@@ -178,7 +178,7 @@ TEST_CASE("leaving_point is that of brute force where walls of every kind meet")
       const Place place = locate(scene, ray, hit, counts);
       const glm::dvec3 from = start_of_leaving(scene, ray, hit, place, counts);
       moved += from != place.point + place.clearance * place.facing;
-      for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+      for (const Isa isa : kIsas)
         differing += machine_has(isa) && leaving_point(prepared, ray, hit, place, counts, isa) != from;
     }
   }
@@ -225,7 +225,7 @@ TEST_CASE("what is asked is counted: a triangle and its signs, a ball") {
     CAPTURE(met);
     const Prepared prepared(scene);
     const glm::dvec3 eye{0.25, 0.25, 3};
-    for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : kIsas) {
       if (!machine_has(isa)) continue;
       std::array<raytrace::RayQuestion, 1> questions;
       questions[0].ray = make_ray(eye, target - eye);
