@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // sphere_roots(), and what intersect() makes of them, over lanes D of doubles: the same operations in the same order.
-// Included by the kernels only (ray_kernel.h).
+// Included by the kernels only (kernels_in_lanes.h).
 #pragma once
 
 #include "common/math/lane_ops.h"

@@ -2,7 +2,7 @@
 // Bundles: up to sixteen rays, of any origins and directions, that go down the tree together. Neighbours of a picture are
 // reflected and refracted to much the same places: a node that is met by several of them is fetched once, its children
 // are put in order once, and none of the rays waits for the result of another. Included by the kernels only
-// (ray_kernel.h).
+// (kernels_in_lanes.h).
 //
 // E. Mansson, J. Munkberg, T. Akenine-Moller, "Deep Coherent Ray Tracing", 2007; here the bundle is small. Where many of
 // its rays meet a node, they are lanes, and its boxes are asked one after the other; where few do, each ray is tested

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traversals of the hierarchy, for one lane type F of floats. Included only by kernels_scalar.cpp, kernels_avx2.cpp and
-// kernels_avx512.cpp, each compiled for its instruction set. Nothing is fused, so that every set enters the same nodes in
-// the same order.
+// Traversals of the hierarchy, for one lane type F of floats. Included by the kernels only (kernels_in_lanes.h). Nothing is
+// fused, so that every set enters the same nodes in the same order.
 #pragma once
 
 #include <array>

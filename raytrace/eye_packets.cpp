@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/model/ray_sheet.h"
+#include "raytrace/kernels.h"
 
 namespace sidelight::raytrace {
 namespace {
@@ -50,7 +51,7 @@ void EyePackets::trace(int X0, int Y0, int columns, int rows, std::vector<Hit>& 
   for (int y = 0; y < rows; y += kRows)
     for (int x = 0; x < columns; x += kColumns) {
       load(X0 + x, Y0 + y, std::min(kColumns, columns - x), std::min(kRows, rows - y));
-      trace_packet(isa_, prepared_, packet_, counts);
+      kernels_for(isa_).trace_packet(prepared_, packet_, counts);
       const auto size = static_cast<std::ptrdiff_t>(packet_.size);
       std::transform(packet_.primitive.begin(), packet_.primitive.begin() + size, &hits[first],
                      [](std::int32_t primitive) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tracer's kernels, each written once over lanes (ray_kernel.h) and instantiated for each instruction set. Every set
-// gives the same answers and counts.
+// The tracer's kernels, each written once over lanes (ray_kernel.h, packet_kernel.h) and instantiated for each instruction
+// set. Every set gives the same answers and counts; but a packet's counts are its own (packets.h).
 #pragma once
 
 #include <span>
@@ -53,6 +53,11 @@ struct ShadowQuestion {
   bool blocked = false;
 };
 
+struct RayPacket;
+class ShadowQueries;
+struct CubeFace;
+struct ShadowPlaces;
+
 // Rays are finite; planes are left to the caller.
 struct Kernels {
   // Replaces `best` by what is nearer, of that which comes after `after` and is not `except`.
@@ -76,6 +81,12 @@ struct Kernels {
   // Each fills the batch's results.
   void (*directions)(OpticsBatch& batch);
   void (*own_hits)(BallBatch& batch);
+  // Meets everything in the scene that casts shadows (RayPacket::any_hit), or simply everything, as far as the budget goes;
+  // planes, too.
+  void (*trace_packet)(const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts);
+  // Of all queries that ask, or only of those behind the face; `places` has room for all. How many they are, or kNotSeen.
+  std::size_t (*find_places)(const ShadowQueries& queries, const CubeFace& face, bool all,
+                             ShadowPlaces& places);
 };
 
 const Kernels& kernels_scalar();

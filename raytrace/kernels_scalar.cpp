@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The readable twin: one lane, and the oracle of the wide ones.
-#include "raytrace/ray_kernel.h"
+#include "raytrace/kernels_in_lanes.h"
 
 namespace sidelight::raytrace {
 
-const Kernels& kernels_scalar() { return kKernels<float, double>; }
+const Kernels& kernels_scalar() { return kKernels<float, float, double>; }
 
 }  // namespace sidelight::raytrace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which primitives of a leaf a ray may meet: filters over lanes D of doubles, each verdict certified by a bound on its
 // rounding. A primitive is dropped only where exact arithmetic, and so visibility.h, would find no hit at a depth in
-// (0, limit]; what is left is asked there. Included by the kernels only (ray_kernel.h); nothing is fused.
+// (0, limit]; what is left is asked there. Included by the kernels only (kernels_in_lanes.h); nothing is fused.
 #pragma once
 
 #include "common/math/lane_ops.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which primitives of a leaf may stand near a point in the sense of stands_near() (place.h): filters over lanes D of
 // doubles. They ask its quick questions with a distance that is at least its own, nearness() of the whole hierarchy, so
-// what they drop it would drop; what is left is asked there. Included by the kernels (ray_kernel.h) and by
+// what they drop it would drop; what is left is asked there. Included by the kernels (kernels_in_lanes.h) and by
 // ball_clearings.cpp only.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // reflect_direction() and refract_direction() over lanes D of doubles: the same operations in the same order. Included by
-// the kernels only (ray_kernel.h).
+// the kernels only (kernels_in_lanes.h).
 #pragma once
 
 #include "common/math/lane_ops.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A packet (packets.h) against the hierarchies, for lane types F of floats (rays, groups, boxes) and D of doubles (the
-// set-up of a leaf's triangles side by side). Included only by packets_scalar.cpp, packets_avx2.cpp and
-// packets_avx512.cpp, each compiled for its instruction set.
+// set-up of a leaf's triangles side by side). Included by the kernels only (kernels_in_lanes.h).
 #pragma once
 
 #include "raytrace/packet_walk.h"
@@ -35,8 +34,8 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
   s.wc[0] = static_cast<float>(c);
   s.w_error[0] = sure ? static_cast<float>(error) : kInfinity;
   s.low_u.fill(kInfinity);
-  s.low_u[0] = s.low_v[0] = -kFar;
-  s.high_u[0] = s.high_v[0] = kFar;
+  s.low_u[0] = s.low_v[0] = -kFarPlace;
+  s.high_u[0] = s.high_v[0] = kFarPlace;
   test_set_up<F>(p, s, all_groups(p), {&primitive}, counts);
 }
 
@@ -52,7 +51,8 @@ void find_squares(RayPacket& p) {
 }
 
 template <class F, class B, class D>
-void meet_all(const Prepared& prepared, RayPacket& p, VisibilityCounts& counts) {
+[[gnu::flatten]] void trace_packet_in_lanes(const Prepared& prepared, RayPacket& p,
+                                            VisibilityCounts& counts) {
   if (p.groups == 0) return;
   const PacketAxes axes = packet_axes(p);
   for (const std::uint32_t plane : prepared.planes) test_plane<F>(prepared, p, plane, counts);

@@ -51,7 +51,7 @@ inline PacketAxes packet_axes(const RayPacket& p) {
   return axes;
 }
 
-constexpr float kFar = 1e30f;  // farther than any u and v
+constexpr float kFarPlace = 1e30f;  // farther than any u and v
 
 // Of the triangles of some leaves, each leaf's from a multiple of kMaxLeaf on.
 struct LeafSetup {
@@ -115,7 +115,7 @@ bool set_up_rectangle(const RayPacket& p, const PacketAxes& axes, const std::arr
       from = lane_ceil(from);
       to = lane_floor(to);
     }
-    const D far(static_cast<double>(kFar));
+    const D far(static_cast<double>(kFarPlace));
     return Interval{select<D>(ahead, lane_max<D>(from, -far), -far),
                     select<D>(ahead, lane_min<D>(to, far), far)};
   };

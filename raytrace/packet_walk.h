@@ -82,12 +82,12 @@ BoxesSeen see_boxes(const BvhNode& node, const PacketBounds& bounds) {
     Mask<B> met = last >= B(0);
     store(lane_max<B>(first, B(0)), &seen.depth[lane]);
     // Of a box that holds places beside the origin nothing is known.
-    const Mask<B> clear = first >= B(1 / kFar);
+    const Mask<B> clear = first >= B(1 / kFarPlace);
     const B per_first = B(1) / select<B>(clear, first, B(1)), per_last = B(1) / select<B>(clear, last, B(1));
     const auto within = [&](std::size_t k, float extent, BoxesSeen::Row& low_row, BoxesSeen::Row& high_row) {
       const B least = at(bounds.least[k]), greatest = at(bounds.greatest[k]);
-      const B low = select<B>(clear, lane_min<B>(least * per_first, least * per_last), B(-kFar)),
-              high = select<B>(clear, lane_max<B>(greatest * per_first, greatest * per_last), B(kFar));
+      const B low = select<B>(clear, lane_min<B>(least * per_first, least * per_last), B(-kFarPlace)),
+              high = select<B>(clear, lane_max<B>(greatest * per_first, greatest * per_last), B(kFarPlace));
       met = met && low <= B(extent) && high >= B(-extent);
       store(low, &low_row[lane]);
       store(high, &high_row[lane]);

@@ -21,8 +21,4 @@ void start(RayPacket& p) {
   p.asked.fill(0);
 }
 
-void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts) {
-  by_isa(isa, trace_packet_scalar, trace_packet_avx2, trace_packet_avx512)(prepared, packet, counts);
-}
-
 }  // namespace sidelight::raytrace

@@ -58,14 +58,7 @@ struct RayPacket {
 };
 
 // To be called once the rays and what bounds them are given: nothing is kept yet, and entries beyond `size`, up to whole
-// groups, become rays that ask for nothing.
+// groups, become rays that ask for nothing. Kernels::trace_packet comes next.
 void start(RayPacket& packet);
-
-// Meets everything in the scene that casts shadows (any_hit), or simply everything, as far as the budget goes.
-void trace_packet(Isa isa, const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts);
-// One for each instruction set.
-void trace_packet_scalar(const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts);
-void trace_packet_avx2(const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts);
-void trace_packet_avx512(const Prepared& prepared, RayPacket& packet, VisibilityCounts& counts);
 
 }  // namespace sidelight::raytrace

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The questions about one ray, for lane types F of floats (boxes) and D of doubles (leaves). Included only by
-// kernels_scalar.cpp, kernels_avx2.cpp and kernels_avx512.cpp.
+// The questions about one ray, and about what stands near a point, for lane types F of floats (boxes) and D of doubles
+// (leaves). Included only by kernels_in_lanes.h.
 #pragma once
 
-#include "raytrace/ball_kernel.h"
 #include "raytrace/bundle_kernel.h"
 #include "raytrace/bvh_kernel.h"
 #include "raytrace/kernels.h"
 #include "raytrace/leaf_kernel.h"
 #include "raytrace/near_kernel.h"
-#include "raytrace/optics_kernel.h"
 
 namespace sidelight::raytrace {
 
@@ -239,8 +237,7 @@ template <class F, class D>
 }
 
 template <class F, class D, int kRows>
-[[gnu::always_inline]] inline void ask_leaves_near(const Leaves<kRows>& leaves,
-                                                   const NearQuestion& question) {
+[[gnu::flatten]] void near_in_lanes(const Leaves<kRows>& leaves, const NearQuestion& question) {
   const glm::dvec3 low = question.point - question.distance, high = question.point + question.distance;
   walk_near<F>(leaves.bvh, low, high, [&](std::uint32_t first, std::uint32_t count) {
     const std::uint32_t* items = leaves.bvh.items.data() + first;
@@ -258,16 +255,6 @@ template <class F, class D, int kRows>
 }
 
 template <class F, class D>
-[[gnu::flatten]] void near_triangles_in_lanes(const TriangleLeaves& leaves, const NearQuestion& question) {
-  ask_leaves_near<F, D>(leaves, question);
-}
-
-template <class F, class D>
-[[gnu::flatten]] void near_spheres_in_lanes(const SphereLeaves& leaves, const NearQuestion& question) {
-  ask_leaves_near<F, D>(leaves, question);
-}
-
-template <class F, class D>
 [[gnu::flatten]] double inset_in_lanes(const TriangleLeaves& leaves, const InsetQuestion& question) {
   const InsetFilter<D> filter(question.corners, question.room);
   double inset = 0;
@@ -282,12 +269,5 @@ template <class F, class D>
   });
   return inset;
 }
-
-template <class F, class D>
-inline constexpr Kernels kKernels{
-    nearest_in_lanes<F, D>,        nearest_of_in_lanes<F, D>,   blocker_in_lanes<F, D>,
-    blocked_of_in_lanes<F, D>,     candidates_in_lanes<F, D>,   visit_leaves_in_lanes<F, D>,
-    near_triangles_in_lanes<F, D>, near_spheres_in_lanes<F, D>, inset_in_lanes<F, D>,
-    directions_in_lanes<D>,        own_hits_in_lanes<D>};
 
 }  // namespace sidelight::raytrace

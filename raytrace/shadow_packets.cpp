@@ -201,7 +201,7 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vecto
   }
   start(packet_);
   packet_.budget.fill(queries_->seen_by_eye ? kGroupWork : kSecondaryGroupWork);
-  trace_packet(isa_, prepared_, packet_, counts);
+  kernels_for(isa_).trace_packet(prepared_, packet_, counts);
   // (Bytes may be part of anything: told apart, nothing is read again after each.)
   std::uint8_t* const dark_of = dark.data();
   const std::int32_t* const number = number_.data();

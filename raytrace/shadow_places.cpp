@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/math/norms.h"
+#include "raytrace/kernels.h"
 
 namespace sidelight::raytrace {
 namespace {
@@ -14,7 +15,7 @@ constexpr std::size_t kWholeLanes = 16;
 std::size_t find(Isa isa, const ShadowQueries& queries, const CubeFace& face, bool all,
                  ShadowPlaces& places) {
   places.resize(queries.size() + kWholeLanes);
-  return by_isa(isa, find_places_scalar, find_places_avx2, find_places_avx512)(queries, face, all, places);
+  return kernels_for(isa).find_places(queries, face, all, places);
 }
 
 }  // namespace

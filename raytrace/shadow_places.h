@@ -69,15 +69,7 @@ struct ShadowPlaces {
 bool find_places(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places);
 // Of those that ask and that lie behind this face itself.
 void find_places_behind(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places);
-
-// One for each instruction set: of all that ask, or only of those behind the face. `places` has room for all queries;
-// returns how many there are, or kNotSeen.
-inline constexpr std::size_t kNotSeen = ~std::size_t{0};
-std::size_t find_places_scalar(const ShadowQueries& queries, const CubeFace& face, bool all,
-                               ShadowPlaces& places);
-std::size_t find_places_avx2(const ShadowQueries& queries, const CubeFace& face, bool all,
-                             ShadowPlaces& places);
-std::size_t find_places_avx512(const ShadowQueries& queries, const CubeFace& face, bool all,
-                               ShadowPlaces& places);
+inline constexpr std::size_t kNotSeen =
+    ~std::size_t{0};  // what the kernel says where this face does not show all
 
 }  // namespace sidelight::raytrace

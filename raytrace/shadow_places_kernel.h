@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// shadow_places.h for lane types D of doubles. Included only by packets_scalar.cpp, packets_avx2.cpp and
-// packets_avx512.cpp, each compiled for its instruction set.
+// shadow_places.h for lane types D of doubles. Included by the kernels only (kernels_in_lanes.h).
 #pragma once
 
 #include <cstring>
@@ -27,8 +26,8 @@ Mask<D> is_behind(const CubeFace& face, const std::array<D, 3>& p) {
 }
 
 template <class D>
-std::size_t find_places_in_lanes(const ShadowQueries& queries, const CubeFace& face, bool all,
-                                 ShadowPlaces& places) {
+[[gnu::flatten]] std::size_t find_places_in_lanes(const ShadowQueries& queries, const CubeFace& face,
+                                                  bool all, ShadowPlaces& places) {
   using F = FloatBeside<D>;
   using I = Ints<F>;
   const std::array<const double*, 3> from{queries.x.data(), queries.y.data(), queries.z.data()};
