@@ -7,7 +7,7 @@
 
 #include "common/math/four.h"
 #include "common/math/norms.h"
-#include "common/model/shading_kernel.h"
+#include "common/model/kernels.h"
 
 namespace sidelight {
 namespace {
@@ -134,14 +134,14 @@ void interleave(const ShadingBatch::Rgb& from, std::size_t first, std::size_t co
 
 void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {
   if (batch.size == 0) return;  // there may be no material to read
-  by_isa(isa, shade_scalar, shade_avx2, shade_avx512)(tables, batch, with_parts);
+  model_kernels(isa).shade(tables, batch, with_parts);
 }
 
 void light_terms(Isa isa, const ShadingTables& tables, const ShadingBatch& batch, bool with_parts,
                  LitBatch& out) {
   out.light.resize(tables.lights.size());
   if (batch.size == 0) return;
-  by_isa(isa, light_terms_scalar, light_terms_avx2, light_terms_avx512)(tables, batch, with_parts, out);
+  model_kernels(isa).light_terms(tables, batch, with_parts, out);
 }
 
 }  // namespace sidelight

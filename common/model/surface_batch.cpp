@@ -4,7 +4,8 @@
 #include <algorithm>
 
 #include "common/math/norms.h"
-#include "common/model/surface_kernel.h"
+#include "common/model/kernels.h"
+#include "common/model/surface_lanes.h"
 #include "common/prefetch.h"
 #include "common/scene/primitive_finder.h"
 
@@ -124,7 +125,7 @@ void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const Shadin
     if (!batch.triangle_runs) batch.triangle_runs = std::make_unique_for_overwrite<TriangleRuns>();
     batch.triangle_runs->begin(!batch.own_rays, camera.eye, batch.want_t && !batch.has_t, batch.want_leaving);
   }
-  by_isa(isa, surfaces_scalar, surfaces_avx2, surfaces_avx512)(view, batch, out);
+  model_kernels(isa).surfaces(view, batch, out);
   std::uint64_t again = 0;
   for (std::size_t i = 0; batch.any_doubtful && i < size; ++i)
     if (batch.doubtful[i] != 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // surface_at() and shading_point() over lanes of double: the same operations in the same order, so the same bits. Included
-// only by surface_scalar.cpp, surface_avx2.cpp and surface_avx512.cpp, each compiled for its instruction set; the lane
+// only by kernels_scalar.cpp, kernels_avx2.cpp and kernels_avx512.cpp, each compiled for its instruction set; the lane
 // type in every name keeps them apart.
 //
 // Where visibility.h bounds a rounding by a permanent, component by component, the bound here is by lengths (Cauchy and
@@ -88,7 +88,7 @@ void plane_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& 
 }
 
 template <class F>
-void surfaces_of_batch(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out) {
+[[gnu::flatten]] void surfaces_of_batch(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out) {
   const auto for_each_vector = [&](const auto& find) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>)
       find(view, batch, out, i);
@@ -102,10 +102,5 @@ void surfaces_of_batch(const SurfaceView& view, SurfaceBatch& batch, ShadingBatc
   if (batch.kind != ObjectKind::mesh) make_unit<FloatLanes<F>>(out.normal, 1, batch);
   if (batch.shiny) make_unit<FloatLanes<F>>(out.to_viewer, -1, batch);
 }
-
-// One for each instruction set.
-void surfaces_scalar(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out);
-void surfaces_avx2(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out);
-void surfaces_avx512(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out);
 
 }  // namespace sidelight
