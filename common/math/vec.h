@@ -28,7 +28,29 @@ Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// As norms.h has it.
+// The same in all lanes, of anything that has x, y and z.
+template <class F, class V>
+[[gnu::always_inline]] inline Vec3<F> wide(const V& v) {
+  return {F(v.x), F(v.y), F(v.z)};
+}
+
+// From and to a structure of arrays: entry i and those that follow it of three rows of numbers.
+template <class F, class Rows>
+[[gnu::always_inline]] inline Vec3<F> load_rows(const Rows& rows, std::size_t i) {
+  return {load<F>(&rows[0][i]), load<F>(&rows[1][i]), load<F>(&rows[2][i])};
+}
+template <class F, class Rows>
+[[gnu::always_inline]] inline void store_rows(const Vec3<F>& v, Rows& rows, std::size_t i) {
+  store<F>(v.x, &rows[0][i]);
+  store<F>(v.y, &rows[1][i]);
+  store<F>(v.z, &rows[2][i]);
+}
+
+// As norms.h has them.
+template <class F>
+[[gnu::always_inline]] inline Vec3<F> absolute(const Vec3<F>& v) {
+  return {lane_abs<F>(v.x), lane_abs<F>(v.y), lane_abs<F>(v.z)};
+}
 template <class F>
 [[gnu::always_inline]] inline F l1_norm(const Vec3<F>& v) {
   return (lane_abs<F>(v.x) + lane_abs<F>(v.y)) + lane_abs<F>(v.z);

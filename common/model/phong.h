@@ -11,7 +11,6 @@
 // Units: a scene's lengths times ShadingTables::length_scale, a power of two, so that float holds their squares.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 
 #include "common/math/lane_math.h"
@@ -25,9 +24,9 @@ namespace sidelight {
 template <class T>
 struct ShadingLight {
   bool directional = false;
-  bool attenuated = true;          // else f(d) = 1
-  std::array<T, 3> high{}, low{};  // point: position; directional: high is the unit vector to the light
-  std::array<T, 3> intensity{};
+  bool attenuated = true;  // else f(d) = 1
+  Vec3<T> high{}, low{};   // point: position; directional: high is the unit vector to the light
+  Vec3<T> intensity{};
   T q0 = 1, q1 = 0, q2 = 0;
 };
 
@@ -70,10 +69,9 @@ struct LightView {
 template <class F>
 LightView<F> view_light(const Vec3<F>& high, const Vec3<F>& low, const Vec3<F>& normal,
                         const ShadingLight<Scalar<F>>& light) {
-  const auto wide = [](const std::array<Scalar<F>, 3>& v) { return Vec3<F>{F(v[0]), F(v[1]), F(v[2])}; };
-  LightView<F> view{wide(light.high), F(0), F(1)};
+  LightView<F> view{wide<F>(light.high), F(0), F(1)};
   if (!light.directional) {
-    const Vec3<F> offset = (wide(light.high) - high) + (wide(light.low) - low);
+    const Vec3<F> offset = (wide<F>(light.high) - high) + (wide<F>(light.low) - low);
     // Where d² is below what float holds, L is short, and 0 where d is: then N.L > 0 does not hold.
     const F distance2 = lane_max<F>(dot(offset, offset), F(std::numeric_limits<Scalar<F>>::min()));
     const F distance = square_root(distance2);
@@ -117,7 +115,7 @@ F specular_power(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const F& lit
 // What arrives of a light's intensity, where it is lit. (Elsewhere f(d) may be infinite.)
 template <class F>
 Vec3<F> light_here(const ShadingLight<Scalar<F>>& light, const F& arriving, const F& lit_cosine) {
-  const Vec3<F> intensity{F(light.intensity[0]), F(light.intensity[1]), F(light.intensity[2])};
+  const Vec3<F> intensity = wide<F>(light.intensity);
   return light.attenuated ? select<F>(lit_cosine > F(0), arriving, F(0)) * intensity : intensity;
 }
 

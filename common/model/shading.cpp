@@ -52,27 +52,20 @@ template <class T>
 ShadingLight<T> shading_light(const Light& light, double scale, bool attenuated) {
   ShadingLight<T> out;
   out.attenuated = attenuated && !light.directional;
-  const auto array = [](const Vec3<T>& v) { return std::array<T, 3>{v.x, v.y, v.z}; };
-  out.intensity = array(rounded<T>(light.intensity));
+  out.intensity = rounded<T>(light.intensity);
   out.directional = light.directional;
   if (light.directional) {
-    out.high = array(rounded<T>(-light.direction));
+    out.high = rounded<T>(-light.direction);
     return out;
   }
   const Split<T> position = split<T>(scale * light.position);
-  out.high = array(position.high);
-  out.low = array(position.low);
+  out.high = position.high;
+  out.low = position.low;
   // f(d) of the scaled distance: a power of two, so nothing is rounded
   out.q0 = static_cast<T>(light.attenuation.q0);
   out.q1 = static_cast<T>(light.attenuation.q1 / scale);
   out.q2 = static_cast<T>(light.attenuation.q2 / scale / scale);
   return out;
-}
-
-void put(ShadingBatch::Rgb& to, std::size_t i, const Vec3<float>& v) {
-  to[0][i] = v.x;
-  to[1][i] = v.y;
-  to[2][i] = v.z;
 }
 
 }  // namespace
@@ -114,11 +107,11 @@ template ShadingPoint<float> shading_point(const ShadingTablesOf<float>&, const 
 template ShadingPoint<double> shading_point(const ShadingTablesOf<double>&, const Surface&, const Ray&);
 
 void ShadingBatch::set(std::size_t i, const ShadingPoint<float>& point, std::uint32_t material_number) {
-  put(high, i, point.high);
-  put(low, i, point.low);
-  put(normal, i, point.normal);
-  put(facing, i, point.facing);
-  put(to_viewer, i, point.to_viewer);
+  store_rows<float>(point.high, high, i);
+  store_rows<float>(point.low, low, i);
+  store_rows<float>(point.normal, normal, i);
+  store_rows<float>(point.facing, facing, i);
+  store_rows<float>(point.to_viewer, to_viewer, i);
   material[i] = material_number;
 }
 

@@ -8,18 +8,6 @@
 
 namespace sidelight {
 
-template <class F>
-Vec3<F> load_rgb(const ShadingBatch::Rgb& from, std::size_t i) {
-  return {load<F>(&from[0][i]), load<F>(&from[1][i]), load<F>(&from[2][i])};
-}
-
-template <class F>
-void store_rgb(const Vec3<F>& value, ShadingBatch::Rgb& to, std::size_t i) {
-  store(value.x, &to[0][i]);
-  store(value.y, &to[1][i]);
-  store(value.z, &to[2][i]);
-}
-
 // The materials of a vector's entries.
 template <class F>
 struct MaterialLanes {
@@ -100,8 +88,8 @@ void view_light(const ShadingLight<float>& light, const ShadingBatch& batch,
   constexpr std::size_t kCount = BatchMaterials<F>::kCount;
   for (std::size_t v = 0; v < vectors; ++v) {
     const std::size_t i = v * kCount;
-    const LightView<F> view = view_light<F>(load_rgb<F>(batch.high, i), load_rgb<F>(batch.low, i),
-                                            load_rgb<F>(batch.normal, i), light);
+    const LightView<F> view = view_light<F>(load_rows<F>(batch.high, i), load_rows<F>(batch.low, i),
+                                            load_rows<F>(batch.normal, i), light);
     out.to_light[v] = {view.to_light.x, view.to_light.y, view.to_light.z};
     out.cosine[v] = lane_max<F>(F(0), view.cosine);
     out.arriving[v] = view.arriving;
@@ -110,8 +98,8 @@ void view_light(const ShadingLight<float>& light, const ShadingBatch& batch,
   for (std::size_t v = 0; v < vectors; ++v) {
     const std::size_t i = v * kCount;
     const Vec3<F> mirrored =
-        mirrored_light<F>(out.cosine[v], vec(out.to_light[v]), load_rgb<F>(batch.normal, i));
-    out.log[v] = below_one<F>(mirrored, load_rgb<F>(batch.to_viewer, i), out.cosine[v]);
+        mirrored_light<F>(out.cosine[v], vec(out.to_light[v]), load_rows<F>(batch.normal, i));
+    out.log[v] = below_one<F>(mirrored, load_rows<F>(batch.to_viewer, i), out.cosine[v]);
   }
   for (std::size_t v = 0; v < vectors; ++v)
     out.log[v] = any<F>(out.log[v] < F(1)) ? log_highlight<F>(out.log[v], materials[v].shininess)
@@ -147,8 +135,7 @@ std::size_t vectors_of(const ShadingBatch& batch) {
 
 template <class F>
 Vec3<F> ambient_of(const ShadingTables& tables, const BatchMaterials<F>& materials, std::size_t v) {
-  const Vec3<float>& light = tables.ambient_light;
-  return vec(materials[v].ambient) * Vec3<F>{F(light.x), F(light.y), F(light.z)};
+  return vec(materials[v].ambient) * wide<F>(tables.ambient_light);
 }
 
 // The batch, with the steps of light_term() one after the other. Whole vectors only: entries beyond batch.size are
@@ -179,11 +166,11 @@ void shade_batch(const ShadingTables& tables, ShadingBatch& batch) {
   for (std::size_t v = 0; v < vectors; ++v) {
     const std::size_t i = v * BatchMaterials<F>::kCount;
     const Vec3<F> local = vec(materials[v].local);  // c1
-    store_rgb(local * vec(sum[v]), batch.unshadowed, i);
+    store_rows<F>(local * vec(sum[v]), batch.unshadowed, i);
     if constexpr (kParts) {
-      store_rgb(local * ambient_of(tables, materials, v), batch.ambient_layer, i);
-      store_rgb(local * vec(diffuse[v]), batch.diffuse_layer, i);
-      store_rgb(local * vec(specular[v]), batch.specular_layer, i);
+      store_rows<F>(local * ambient_of(tables, materials, v), batch.ambient_layer, i);
+      store_rows<F>(local * vec(diffuse[v]), batch.diffuse_layer, i);
+      store_rows<F>(local * vec(specular[v]), batch.specular_layer, i);
     }
   }
 }
@@ -202,7 +189,7 @@ template <class F>
   const BatchMaterials<F> materials(tables, batch, vectors);
   BatchColors<F> diffuse, specular;
   for (std::size_t v = 0; v < vectors; ++v) {
-    store_rgb(ambient_of(tables, materials, v), out.ambient, v * kCount);
+    store_rows<F>(ambient_of(tables, materials, v), out.ambient, v * kCount);
     diffuse[v] = specular[v] = {F(0), F(0), F(0)};
   }
 
@@ -215,17 +202,17 @@ template <class F>
       const Vec3<F> total = term.total();
       const Mask<F> dark = total.x == F(0) && total.y == F(0) && total.z == F(0);
       // Not dark, so it is lit.
-      const Mask<F> self_shadowed = dot(load_rgb<F>(batch.facing, i), vec(lanes.to_light[v])) <= F(0);
+      const Mask<F> self_shadowed = dot(load_rows<F>(batch.facing, i), vec(lanes.to_light[v])) <= F(0);
       const F state = select<F>(self_shadowed, F(LightTerms::kSelfShadowed), F(LightTerms::kAsk));
-      store_rgb(total, out.light[l].total, i);
+      store_rows<F>(total, out.light[l].total, i);
       store(select<F>(dark, F(LightTerms::kDark), state), &out.light[l].state[i]);
       add(diffuse[v], term.diffuse);
       add(specular[v], term.specular);
     }
   }
   for (std::size_t v = 0; with_parts && v < vectors; ++v) {
-    store_rgb(vec(diffuse[v]), out.diffuse, v * kCount);
-    store_rgb(vec(specular[v]), out.specular, v * kCount);
+    store_rows<F>(vec(diffuse[v]), out.diffuse, v * kCount);
+    store_rows<F>(vec(specular[v]), out.specular, v * kCount);
   }
 }
 

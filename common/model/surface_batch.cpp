@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::size_t kGroup = SurfaceBatch::kGroup;
 
-Vec3<double> as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 std::size_t whole_groups(int size) { return (static_cast<std::size_t>(size) + kGroup - 1) / kGroup * kGroup; }
 
 // Entries beyond the last, up to a whole group, repeat it, so that lanes are full of what is true somewhere.
@@ -114,10 +112,10 @@ void surfaces_at(Isa isa, const Scene& scene, const Camera& camera, const Shadin
   fetch(scene, tables, batch, out);
 
   const SurfaceView view{scene,
-                         as_vec(camera.eye),
-                         as_vec(camera.right),
-                         as_vec(camera.up),
-                         as_vec(camera.axis_part()),
+                         wide<double>(camera.eye),
+                         wide<double>(camera.right),
+                         wide<double>(camera.up),
+                         wide<double>(camera.axis_part()),
                          longest_direction(camera),
                          tables.length_scale};
   batch.any_doubtful = false;

@@ -22,8 +22,7 @@ F sphere_clearance(const Vec3<F>& outward, const Vec3<F>& center, const F& radiu
 template <class F>
 void sphere_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out, std::size_t i) {
   SurfaceLanes<F> lanes(batch, i);
-  Vec3<F> d;
-  lanes.direction(view, d);
+  const Vec3<F> d = lanes.direction(view);
   const auto& spheres = view.scene.spheres;
   const Vec3<F> center = lanes.scene_vector([&](auto s) -> const auto& { return spheres[s].center; });
   const F radius = lanes.scene_number([&](auto s) { return spheres[s].radius; }), r2 = radius * radius;
@@ -50,7 +49,7 @@ void sphere_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch&
   if (lanes.wants_leaving()) {
     lanes.put_leaving(point, facing, sphere_clearance(outward, center, radius));
     lanes.put_normal(facing);
-    put(rounded(facing), out.facing, i);
+    store_rows(rounded(facing), out.facing, i);
   }
   put_point(view, point, facing, d, out, i);
 }
@@ -66,8 +65,7 @@ F plane_clearance(const Vec3<F>& normal, const Vec3<F>& on_plane, const Vec3<F>&
 template <class F>
 void plane_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& out, std::size_t i) {
   SurfaceLanes<F> lanes(batch, i);
-  Vec3<F> d;
-  lanes.direction(view, d);
+  const Vec3<F> d = lanes.direction(view);
   const auto& planes = view.scene.planes;
   const Vec3<F> on_plane = lanes.scene_vector([&](auto p) -> const auto& { return planes[p].point; });
   const Vec3<F> outward = lanes.scene_vector([&](auto p) -> const auto& { return planes[p].normal; });
@@ -82,7 +80,7 @@ void plane_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& 
   if (lanes.wants_leaving()) {
     lanes.put_leaving(point, facing, plane_clearance(outward, on_plane, p));
     lanes.put_normal(facing);
-    put(rounded(facing), out.facing, i);
+    store_rows(rounded(facing), out.facing, i);
   }
   put_point(view, point, facing, d, out, i);
 }

@@ -15,15 +15,6 @@ struct SurfaceView {
   double length_scale = 1;            // of the shading tables: a power of two, so that nothing is rounded
 };
 
-template <class F>
-Vec3<F> wide(const Vec3<double>& v) {
-  return {F(v.x), F(v.y), F(v.z)};
-}
-template <class F>
-Vec3<F> absolute(const Vec3<F>& v) {
-  return {lane_abs(v.x), lane_abs(v.y), lane_abs(v.z)};
-}
-
 // ---- From and to the batches ----
 
 template <class F>
@@ -41,25 +32,22 @@ class SurfaceLanes {
     return generate<F>([&](int lane) { return of(index(lane)); });
   }
   Vec3<F> origin(const SurfaceView& view) const {
-    return batch_.own_rays ? own(batch_.origin) : wide<F>(view.eye);
+    return batch_.own_rays ? load_rows<F>(batch_.origin, first_) : wide<F>(view.eye);
   }
-  void direction(const SurfaceView& view, Vec3<F>& to) const {
-    if (batch_.own_rays) {
-      to = own(batch_.direction);
-    } else {
-      const F column = load<F>(&batch_.column[first_]), row = load<F>(&batch_.row[first_]);
-      to = (column * wide<F>(view.right) + row * wide<F>(view.up)) + wide<F>(view.axis);
-    }
+  Vec3<F> direction(const SurfaceView& view) const {
+    if (batch_.own_rays) return load_rows<F>(batch_.direction, first_);
+    const F column = load<F>(&batch_.column[first_]), row = load<F>(&batch_.row[first_]);
+    return (column * wide<F>(view.right) + row * wide<F>(view.up)) + wide<F>(view.axis);
   }
   F given_t() const { return load<F>(&batch_.t[first_]); }
   void put_t(const F& t) { store(t, &batch_.t[first_]); }
   bool wants_leaving() const { return batch_.want_leaving; }
   void put_leaving(const Vec3<F>& point, const Vec3<F>& facing, const F& clearance) {
-    put(point, batch_.point);
-    put(facing, batch_.facing);
+    store_rows<F>(point, batch_.point, first_);
+    store_rows<F>(facing, batch_.facing, first_);
     store(clearance, &batch_.clearance[first_]);
   }
-  void put_normal(const Vec3<F>& normal) { put(normal, batch_.normal); }
+  void put_normal(const Vec3<F>& normal) { store_rows<F>(normal, batch_.normal, first_); }
   void put_doubt(const Mask<F>& sure) {
     store(select<F>(sure, F(0), F(1)), &batch_.doubtful[first_]);
     if constexpr (kLanes<F> == 1)
@@ -72,25 +60,11 @@ class SurfaceLanes {
   std::uint32_t index(int lane) const {
     return batch_.index[batch_.run[first_ + static_cast<std::size_t>(lane)]];
   }
-  Vec3<F> own(const SurfaceBatch::Vectors& from) const {
-    return {load<F>(&from[0][first_]), load<F>(&from[1][first_]), load<F>(&from[2][first_])};
-  }
-  void put(const Vec3<F>& v, SurfaceBatch::Vectors& to) {
-    store(v.x, &to[0][first_]);
-    store(v.y, &to[1][first_]);
-    store(v.z, &to[2][first_]);
-  }
 
   SurfaceBatch& batch_;
   std::size_t first_;
 };
 
-template <class Floats>
-void put(const Vec3<Floats>& v, ShadingBatch::Rgb& to, std::size_t i) {
-  store(v.x, &to[0][i]);
-  store(v.y, &to[1][i]);
-  store(v.z, &to[2][i]);
-}
 template <class F>
 auto rounded(const Vec3<F>& v) {
   using Floats = decltype(to_float(v.x));
@@ -102,9 +76,9 @@ auto rounded(const Vec3<F>& v) {
 template <class F>
 void make_unit(ShadingBatch::Rgb& vectors, const F& length, SurfaceBatch& batch) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); i += kLanes<F>) {
-    const Vec3<F> v{load<F>(&vectors[0][i]), load<F>(&vectors[1][i]), load<F>(&vectors[2][i])};
+    const Vec3<F> v = load_rows<F>(vectors, i);
     const F length2 = dot(v, v);
-    put((length / square_root(length2)) * v, vectors, i);
+    store_rows<F>((length / square_root(length2)) * v, vectors, i);
     const Mask<F> odd = !(length2 >= F(kLeastPlain) && length2 <= F(kMostPlain));
     if (!any<F>(odd)) continue;
     batch.any_doubtful = true;
@@ -118,16 +92,16 @@ void make_unit(ShadingBatch::Rgb& vectors, const F& length, SurfaceBatch& batch)
 template <class F>
 void put_position(const Vec3<F>& scaled, ShadingBatch& out, std::size_t i) {
   const auto above = [](const F& x) { return x - to_double<F>(to_float(x)); };
-  put(rounded(scaled), out.high, i);
-  put(rounded(Vec3<F>{above(scaled.x), above(scaled.y), above(scaled.z)}), out.low, i);
+  store_rows(rounded(scaled), out.high, i);
+  store_rows(rounded(Vec3<F>{above(scaled.x), above(scaled.y), above(scaled.z)}), out.low, i);
 }
 // N and -V are left to make_unit().
 template <class F>
 void put_point(const SurfaceView& view, const Vec3<F>& point, const Vec3<F>& normal, const Vec3<F>& direction,
                ShadingBatch& out, std::size_t i) {
   put_position(F(view.length_scale) * point, out, i);
-  put(rounded(normal), out.normal, i);
-  put(rounded(direction), out.to_viewer, i);
+  store_rows(rounded(normal), out.normal, i);
+  store_rows(rounded(direction), out.to_viewer, i);
 }
 
 }  // namespace sidelight

@@ -62,11 +62,6 @@ class TriangleSurfaces {
       return triangle.normal[k] == kNone ? kFlat : view_.scene.normals[triangle.normal[k]];
     });
   }
-  static void put(const Vec3<F>& v, TriangleRuns::Vectors& to, std::size_t r) {
-    store(v.x, &to[0][r]);
-    store(v.y, &to[1][r]);
-    store(v.z, &to[2][r]);
-  }
 
   // Whether the vector's triangles are those that were looked at last time.
   bool is_seen(std::size_t r) {
@@ -91,15 +86,15 @@ class TriangleSurfaces {
     const Vec3<F> v0 = corners(r, 0), v1 = corners(r, 1), v2 = corners(r, 2);
     const Vec3<F> e1 = v1 - v0, e2 = v2 - v0, origin = SurfaceLanes<F>(batch_, r).origin(view_);
     const F scale(view_.length_scale);
-    put(scale * v0, runs_.v0, r);
-    put(scale * e1, runs_.e1, r);
-    put(scale * e2, runs_.e2, r);
+    store_rows<F>(scale * v0, runs_.v0, r);
+    store_rows<F>(scale * e1, runs_.e1, r);
+    store_rows<F>(scale * e2, runs_.e2, r);
     const Vec3<F> a0 = v0 - origin, a1 = v1 - origin, a2 = v2 - origin;
     const Vec3<F> opposite = cross(a1, a2);
     const F side = dot(a0, opposite), turn = select<F>(side < F(0), F(-1), F(1));
-    put(turn * opposite, runs_.edge[0], r);
-    put(turn * cross(a2, a0), runs_.edge[1], r);
-    put(turn * cross(a0, a1), runs_.edge[2], r);
+    store_rows<F>(turn * opposite, runs_.edge[0], r);
+    store_rows<F>(turn * cross(a2, a0), runs_.edge[1], r);
+    store_rows<F>(turn * cross(a0, a1), runs_.edge[2], r);
 
     const F s0 = dot(a0, a0), s1 = dot(a1, a1), s2 = dot(a2, a2), lengths2 = (s0 + s1) + s2;
     Mask<F> sure = side * side > F(0x1p-99) * ((s0 * s1) * s2);
@@ -112,7 +107,7 @@ class TriangleSurfaces {
     if (!batch_.want_t || batch_.has_t) return;
     const F a0_n = dot(a0, n), bound = lengths2 * (dot(e1, e1) + dot(e2, e2));
     const Mask<F> sure_depth = bound * lengths2 <= F(0x1p56) * (a0_n * a0_n);
-    put(n, runs_.n, r);
+    store_rows<F>(n, runs_.n, r);
     store(a0_n, &runs_.a0_n[r]);
     store(select<F>(sure_depth, bound, never), &runs_.depth_bound[r]);
   }
@@ -136,15 +131,15 @@ class TriangleSurfaces {
     Vec3<F> to1 = turn * n1 - turned, to2 = turn * n2 - turned;
     if (any_flat || batch_.want_leaving) {
       const Vec3<F> facing_here = facing(toward);
-      if (batch_.want_leaving) put(facing_here, runs_.facing, r);
+      if (batch_.want_leaving) store_rows<F>(facing_here, runs_.facing, r);
       turned = select<F>(flat, facing_here, turned);
       const Vec3<F> nothing{F(0), F(0), F(0)};
       to1 = select<F>(flat, nothing, to1);
       to2 = select<F>(flat, nothing, to2);
     }
-    put(turned, runs_.normal, r);
-    put(to1, runs_.to_normal1, r);
-    put(to2, runs_.to_normal2, r);
+    store_rows<F>(turned, runs_.normal, r);
+    store_rows<F>(to1, runs_.to_normal1, r);
+    store_rows<F>(to2, runs_.to_normal2, r);
     runs_.smooth[r] = smooth_ || any<F>(l1_norm(to1) + l1_norm(to2) > F(0));
     if (!runs_.smooth[r]) put_one_normal(r, turned);
     return sure || flat;
@@ -154,8 +149,9 @@ class TriangleSurfaces {
   void put_one_normal(std::size_t r, const Vec3<F>& normal) {
     const Vec3<F> without_sign = normal + Vec3<F>{F(0), F(0), F(0)};  // of zeros
     const auto unit = normalized(rounded(without_sign));
-    put(Vec3<F>{to_double<F>(unit.x), to_double<F>(unit.y), to_double<F>(unit.z)}, runs_.unit_rounded, r);
-    if (batch_.want_leaving) put(normalized(without_sign), runs_.unit, r);
+    store_rows<F>(Vec3<F>{to_double<F>(unit.x), to_double<F>(unit.y), to_double<F>(unit.z)},
+                  runs_.unit_rounded, r);
+    if (batch_.want_leaving) store_rows<F>(normalized(without_sign), runs_.unit, r);
   }
 
   // ---- The samples ----
@@ -172,9 +168,8 @@ class TriangleSurfaces {
 
   template <class OfRun>
   void locate(std::size_t i, const OfRun& of_run) {
-    Vec3<F> d;
-    SurfaceLanes<F>(batch_, i).direction(view_, d);
-    if (batch_.shiny) sidelight::put(rounded(d), out_.to_viewer, i);
+    const Vec3<F> d = SurfaceLanes<F>(batch_, i).direction(view_);
+    if (batch_.shiny) store_rows(rounded(d), out_.to_viewer, i);
     std::array<F, 3> e;
     for (std::size_t k = 0; k < 3; ++k) e[k] = dot(d, of_run.vector(runs_.edge[k]));
     const F all = (e[0] + e[1]) + e[2], size_of_d = batch_.own_rays ? l1_norm(d) : F(view_.longest);
@@ -203,18 +198,18 @@ class TriangleSurfaces {
     const Vec3<F> facing_here = of_run.vector(runs_.facing);
     SurfaceLanes<F>(batch_, i).put_leaving(F(1 / view_.length_scale) * scaled, facing_here,
                                            of_run(runs_.clearance.data()));
-    sidelight::put(rounded(facing_here), out_.facing, i);
+    store_rows(rounded(facing_here), out_.facing, i);
   }
 
   template <class OfRun>
   void interpolate(std::size_t i, const OfRun& of_run) {
     const Vec3<F> normal = between(i, of_run, runs_.normal, runs_.to_normal1, runs_.to_normal2);
-    sidelight::put(rounded(normal), out_.normal, i);
+    store_rows(rounded(normal), out_.normal, i);
     if (batch_.want_leaving) SurfaceLanes<F>(batch_, i).put_normal(normalized(normal));
   }
   template <class OfRun>
   void copy_normal(std::size_t i, const OfRun& of_run) {
-    sidelight::put(rounded(of_run.vector(runs_.unit_rounded)), out_.normal, i);
+    store_rows(rounded(of_run.vector(runs_.unit_rounded)), out_.normal, i);
     if (batch_.want_leaving) SurfaceLanes<F>(batch_, i).put_normal(of_run.vector(runs_.unit));
   }
 

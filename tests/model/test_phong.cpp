@@ -24,10 +24,6 @@ template <class T>
 Vec3<T> vec(const glm::dvec3& v) {
   return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
 }
-template <class T>
-std::array<T, 3> triple(const glm::dvec3& v) {
-  return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
-}
 
 // At the origin, facing +z, seen from straight above.
 template <class T>
@@ -46,7 +42,7 @@ template <class T>
 ShadingLight<T> sun(const glm::dvec3& to_light) {
   ShadingLight<T> light;
   light.directional = true;
-  light.high = triple<T>(to_light);
+  light.high = vec<T>(to_light);
   light.intensity = {1, 1, 1};
   return light;
 }

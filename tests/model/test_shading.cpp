@@ -77,11 +77,11 @@ Entry any_entry(const ShadingTables& tables, Random& random) {
   point.shininess = material.shininess;
   const ShadingLight<float>& light = tables.lights[0];
   if (random.below(8) == 0) {
-    point.high = {light.high[0], light.high[1], light.high[2]};
-    point.low = {light.low[0], light.low[1], light.low[2]};
+    point.high = light.high;
+    point.low = light.low;
   }
   if (random.below(8) == 0) {
-    const glm::dvec3 away = glm::dvec3(light.high[0], light.high[1], light.high[2]) -
+    const glm::dvec3 away = glm::dvec3(light.high.x, light.high.y, light.high.z) -
                             glm::dvec3(point.high.x, point.high.y, point.high.z);
     if (glm::dot(away, away) > 0) point.normal = point.to_viewer = to_float(glm::normalize(away));
   }
@@ -256,7 +256,9 @@ TEST_CASE("points and lights are split into two floats that hold 48 bits of each
     check(point.high.y, point.low.y, surface.point.y);
     check(point.high.z, point.low.z, surface.point.z);
     const ShadingLight<float>& lamp = tables.lights[0];
-    for (std::size_t k = 0; k < 3; ++k) check(lamp.high[k], lamp.low[k], light.position[static_cast<int>(k)]);
+    check(lamp.high.x, lamp.low.x, light.position.x);
+    check(lamp.high.y, lamp.low.y, light.position.y);
+    check(lamp.high.z, lamp.low.z, light.position.z);
   }
   CHECK(lost == 0);
 }
