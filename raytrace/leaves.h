@@ -4,6 +4,7 @@
 // place, in whole vectors, and takes no more room than its primitives do.
 #pragma once
 
+#include "common/math/vec.h"
 #include "common/model/visibility.h"
 #include "raytrace/bvh.h"
 
@@ -22,6 +23,15 @@ struct Leaves {
 };
 using TriangleLeaves = Leaves<9>;  // v0, v1, v2
 using SphereLeaves = Leaves<4>;    // center, radius
+
+// In lanes D of doubles, from the rows of a leaf of `count` primitives, `from` being where the first lane's begin: corner k of
+// triangles, and the center of spheres as their corner 0.
+template <class D>
+[[gnu::always_inline]] inline Vec3<D> load_corner(const double* from, std::uint32_t count,
+                                                  std::uint32_t k = 0) {
+  const double* row = from + 3 * k * count;
+  return {load<D>(row), load<D>(row + count), load<D>(row + 2 * count)};
+}
 
 // Of the triangles (not the degenerate ones) and of the spheres of a scene.
 TriangleLeaves triangle_leaves(const Scene& scene, int threads);

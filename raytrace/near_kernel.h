@@ -16,13 +16,10 @@ template <class D>
 [[gnu::always_inline]] inline std::uint32_t near_bits(const TriangleLeaves&, const double* leaf,
                                                       std::uint32_t count, std::uint32_t asked,
                                                       const glm::dvec3& point, double distance) {
-  const Vec3<D> p{D(point.x), D(point.y), D(point.z)};
+  const Vec3<D> p = wide<D>(point);
   const D room(distance);
-  const auto corner = [&](std::uint32_t k) {
-    const double* row = leaf + 3 * k * count;
-    return Vec3<D>{load<D>(row), load<D>(row + count), load<D>(row + 2 * count)};
-  };
-  const Vec3<D> v0 = corner(0), v1 = corner(1), v2 = corner(2);
+  const Vec3<D> v0 = load_corner<D>(leaf, count, 0), v1 = load_corner<D>(leaf, count, 1),
+                v2 = load_corner<D>(leaf, count, 2);
   const auto outside = [&](const D& x, const D& a, const D& b, const D& c) __attribute__((always_inline)) {
     return x < lane_min<D>(a, lane_min<D>(b, c)) - room || x > lane_max<D>(a, lane_max<D>(b, c)) + room;
   };
@@ -54,9 +51,8 @@ template <class D>
 [[gnu::always_inline]] inline std::uint32_t near_bits(const SphereLeaves&, const double* leaf,
                                                       std::uint32_t count, std::uint32_t,
                                                       const glm::dvec3& point, double distance) {
-  const Vec3<D> f{D(point.x) - load<D>(leaf), D(point.y) - load<D>(leaf + count),
-                  D(point.z) - load<D>(leaf + 2 * count)};
-  return mask_bits<D>(is_near_sphere<D>(f, load<D>(leaf + 3 * count), distance));
+  const Vec3<D> from_center = wide<D>(point) - load_corner<D>(leaf, count);
+  return mask_bits<D>(is_near_sphere<D>(from_center, load<D>(leaf + 3 * count), distance));
 }
 
 // How far a triangle T must be inset to keep away from others. Of T's points with barycentric weights of at least m, along
@@ -75,7 +71,7 @@ class InsetFilter {
     high_ = glm::max(own.v0, glm::max(own.v1, own.v2)) + 2 * room;
     const glm::dvec3 n = glm::cross(v[1], v[2]);
     for (std::size_t k = 0; k < 3; ++k) {
-      own_[k] = lanes(v[k]);
+      own_[k] = wide<D>(v[k]);
       axes_[k] = glm::cross(n, v[(k + 1) % 3] - v[k]);
     }
     axes_[3] = n;
@@ -88,11 +84,7 @@ class InsetFilter {
 
   // For each of the triangles from `leaf` on, 1 where none is enough.
   D operator()(const double* leaf, std::uint32_t count) const {
-    const auto corner = [&](std::uint32_t k) {
-      const double* row = leaf + 3 * k * count;
-      return Vec3<D>{load<D>(row) - D(origin_.x), load<D>(row + count) - D(origin_.y),
-                     load<D>(row + 2 * count) - D(origin_.z)};
-    };
+    const auto corner = [&](std::uint32_t k) { return load_corner<D>(leaf, count, k) - wide<D>(origin_); };
     const Vec3<D> v0 = corner(0), v1 = corner(1), v2 = corner(2);
     const auto along = [&](const Vec3<D>& axis) __attribute__((always_inline)) {
       const D a = dot(axis, own_[0]), b = dot(axis, own_[1]), c = dot(axis, own_[2]);
@@ -103,14 +95,12 @@ class InsetFilter {
       return select<D>(need < D(0), D(0), select<D>(enough, need / select<D>(enough, gain, D(1)), D(1)));
     };
     const Vec3<D> n = cross(v1 - v0, v2 - v0);
-    D inset = lane_min<D>(along(n), along(Vec3<D>{-n.x, -n.y, -n.z}));
-    for (const glm::dvec3& axis : axes_) inset = lane_min<D>(inset, along(lanes(axis)));
+    D inset = lane_min<D>(along(n), along(-n));
+    for (const glm::dvec3& axis : axes_) inset = lane_min<D>(inset, along(wide<D>(axis)));
     return inset;
   }
 
  private:
-  static Vec3<D> lanes(const glm::dvec3& v) { return {D(v.x), D(v.y), D(v.z)}; }
-
   glm::dvec3 origin_, low_, high_;
   double room_;
   std::array<Vec3<D>, 3> own_;

@@ -10,11 +10,6 @@
 
 namespace sidelight::raytrace {
 
-template <class F>
-Vec3<F> wide_of(const glm::dvec3& v) {
-  return {F(v.x), F(v.y), F(v.z)};
-}
-
 // Groups of a packet, as bits.
 using Groups = std::uint64_t;
 static_assert(RayPacket::kGroups <= 64);

@@ -12,8 +12,9 @@ template <class F>
 void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive, VisibilityCounts& counts) {
   if (casts_none(prepared, p, primitive)) return;
   const Plane& plane = prepared.scene.planes[primitive_ref(prepared.scene, primitive).index];
-  const Vec3<double> n{plane.normal.x, plane.normal.y, plane.normal.z};
-  const auto along = [&](const glm::dvec3& d) { return (n.x * d.x + n.y * d.y) + n.z * d.z; };
+  const auto along = [n = wide<double>(plane.normal)](const glm::dvec3& d) {
+    return dot(n, wide<double>(d));
+  };
   const double h = along(plane.point - p.origin), size_h = lane_abs(h);
   const bool sure = size_h > 0x1p-17 * p.distance && size_h > 0x1p-20 * p.reach;
   const double per_h = sure ? 1 / h : 0;
@@ -41,7 +42,7 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
 
 template <class D>
 void find_squares(RayPacket& p) {
-  const Vec3<D> W = wide_of<D>(p.W), U = wide_of<D>(p.U), V = wide_of<D>(p.V);
+  const Vec3<D> W = wide<D>(p.W), U = wide<D>(p.U), V = wide<D>(p.V);
   const D per_square(1 / (p.length * p.length));
   for (std::size_t i = 0; i < static_cast<std::size_t>(p.groups) * RayPacket::kGroup; i += kLanes<D>) {
     const Vec3<D> d = (W + to_double<D>(load<FloatBeside<D>>(&p.u[i])) * U) +

@@ -27,7 +27,7 @@ namespace sidelight::raytrace {
 // The packet's own axes, and what the bounds need of them.
 struct PacketAxes {
   std::array<Vec3<double>, 3> row;  // of 1/N
-  std::array<double, 3> size;       // |row|
+  Vec3<double> size;                // |row|
   std::array<double, 2> per_place;  // r_0, r_1: a place off by x makes u or v off by this times |x| / s
   double per_det;                   // 1 / |det N|
   double kappa;
@@ -36,12 +36,11 @@ struct PacketAxes {
 };
 
 inline PacketAxes packet_axes(const RayPacket& p) {
-  const auto vec = [](const glm::dvec3& v) { return Vec3<double>{v.x, v.y, v.z}; };
-  const Vec3<double> U = vec(p.U), V = vec(p.V), W = vec(p.W), UV = cross(U, V);
+  const Vec3<double> U = wide<double>(p.U), V = wide<double>(p.V), W = wide<double>(p.W), UV = cross(U, V);
   const double det = dot(W, UV), per_det = 1 / det, size_det = lane_abs(per_det);
   PacketAxes axes;
   axes.row = {per_det * cross(V, W), per_det * cross(W, U), per_det * UV};
-  for (std::size_t k = 0; k < 3; ++k) axes.size[k] = l1_norm(axes.row[k]);
+  axes.size = {l1_norm(axes.row[0]), l1_norm(axes.row[1]), l1_norm(axes.row[2])};
   axes.per_place = {size_det * (l1_norm(V) * l1_norm(W)), size_det * (l1_norm(W) * l1_norm(U))};
   axes.per_det = size_det;
   axes.kappa = axes.per_place[0] * l1_norm(U);
@@ -73,19 +72,13 @@ Vec3<D> fused_cross(const Vec3<D>& a, const Vec3<D>& b) {
 }
 // x a + y b + c, of absolute values: the most that an affine function of this size can be.
 template <class D>
-D most_of(const Vec3<D>& f, const std::array<D, 3>& size) {
-  return mul_add(lane_abs<D>(f.x), size[0],
-                 mul_add(lane_abs<D>(f.y), size[1], D(lane_abs<D>(f.z) * size[2])));
-}
-
-template <class D>
-std::array<D, 3> wide(const std::array<double, 3>& numbers) {
-  return {D(numbers[0]), D(numbers[1]), D(numbers[2])};
+D most_of(const Vec3<D>& f, const Vec3<D>& size) {
+  return fused_dot(absolute(f), size);
 }
 // The most that |u|, |v| and 1 can be.
 template <class D>
-std::array<D, 3> extents(const RayPacket& p) {
-  return wide<D>({static_cast<double>(p.extent_u), static_cast<double>(p.extent_v), 1});
+Vec3<D> extents(const RayPacket& p) {
+  return {D(static_cast<double>(p.extent_u)), D(static_cast<double>(p.extent_v)), D(1)};
 }
 
 // The rectangle of (u, v) that surely holds the triangle; all of the plane where it does not lie ahead; nothing where it
@@ -189,17 +182,12 @@ void set_up_edges(const RayPacket& p, const PacketAxes& axes, const std::array<V
 template <class D>
 bool set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
                       std::size_t lane, std::size_t at, LeafSetup& out) {
-  const auto corner = [&](std::uint32_t k) {
-    const double* row = leaf + lane + 3 * k * count;
-    return Vec3<D>{load<D>(row), load<D>(row + count), load<D>(row + 2 * count)};
-  };
+  const auto corner = [&](std::uint32_t k) { return load_corner<D>(leaf + lane, count, k); };
   const auto in_axes = [&](const Vec3<D>& x) {
-    const auto along = [&](const Vec3<double>& row) {
-      return fused_dot(Vec3<D>{D(row.x), D(row.y), D(row.z)}, x);
-    };
+    const auto along = [&](const Vec3<double>& row) { return fused_dot(wide<D>(row), x); };
     return Vec3<D>{along(axes.row[0]), along(axes.row[1]), along(axes.row[2])};
   };
-  const Vec3<D> v0 = corner(0), a0 = v0 - wide_of<D>(p.origin), e1 = corner(1) - v0, e2 = corner(2) - v0;
+  const Vec3<D> v0 = corner(0), a0 = v0 - wide<D>(p.origin), e1 = corner(1) - v0, e2 = corner(2) - v0;
   const D m = lane_max<D>(l1_norm(e1), l1_norm(e2)), l = l1_norm(a0) + m;
   const Vec3<D> q0 = in_axes(a0), q1 = in_axes(e1), q2 = in_axes(e2);
   const std::array<Vec3<D>, 3> q{q0, q0 + q1, q0 + q2};

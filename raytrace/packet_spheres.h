@@ -35,8 +35,8 @@ void set_up_spheres(const RayPacket& p, const double* leaf, std::uint32_t count,
   const auto put = [&](const D& x, SphereSetup::PerItem& to) { store(to_float<D>(x), &to[lane]); };
   const Mask<D> asked = lane_numbers<D>() < D(static_cast<double>(count) - static_cast<double>(lane));
   const D radius = select<D>(asked, row(3), D(1)), per_r = D(1) / radius, unit = per_r * D(1 / p.length);
-  const Vec3<D> f = wide_of<D>(p.origin) - Vec3<D>{row(0), row(1), row(2)};
-  const Vec3<D> U = wide_of<D>(p.U), V = wide_of<D>(p.V), W = wide_of<D>(p.W);
+  const Vec3<D> f = wide<D>(p.origin) - load_corner<D>(leaf + lane, count);
+  const Vec3<D> U = wide<D>(p.U), V = wide<D>(p.V), W = wide<D>(p.W);
   const Vec3<D> x = unit * cross(U, f), y = unit * cross(V, f), c = unit * cross(W, f);
   const D extent_u(static_cast<double>(p.extent_u)), extent_v(static_cast<double>(p.extent_v));
   const D size = l1_norm(f), l = (size + radius) + D(p.distance), near(2 * p.near_error * p.reach);
@@ -45,12 +45,9 @@ void set_up_spheres(const RayPacket& p, const double* leaf, std::uint32_t count,
   const D in_radii = l * per_r;
   const D doubt =
       ((D(2) + off) * off + D(0x1p-21) * ((D(1) + off) * (D(1) + off))) + D(0x1p-46) * (in_radii * in_radii);
-  for (std::size_t k = 0; k < 3; ++k) {
-    constexpr std::array kPart{&Vec3<D>::x, &Vec3<D>::y, &Vec3<D>::z};
-    put(x.*kPart[k], s.gx[k]);
-    put(y.*kPart[k], s.gy[k]);
-    put(c.*kPart[k], s.gc[k]);
-  }
+  store_rows(to_floats(x), s.gx, lane);
+  store_rows(to_floats(y), s.gy, lane);
+  store_rows(to_floats(c), s.gc, lane);
   put(doubt, s.doubt);
 
   const D q = dot(f, f) - radius * radius, size_q = lane_abs<D>(q);

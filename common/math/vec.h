@@ -46,6 +46,12 @@ template <class F, class Rows>
   store<F>(v.z, &rows[2][i]);
 }
 
+// Of doubles F, each rounded to float.
+template <class F>
+[[gnu::always_inline]] inline auto to_floats(const Vec3<F>& v) {
+  return Vec3<FloatBeside<F>>{to_float<F>(v.x), to_float<F>(v.y), to_float<F>(v.z)};
+}
+
 // As norms.h has them.
 template <class F>
 [[gnu::always_inline]] inline Vec3<F> absolute(const Vec3<F>& v) {

@@ -49,7 +49,7 @@ void sphere_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch&
   if (lanes.wants_leaving()) {
     lanes.put_leaving(point, facing, sphere_clearance(outward, center, radius));
     lanes.put_normal(facing);
-    store_rows(rounded(facing), out.facing, i);
+    store_rows(to_floats(facing), out.facing, i);
   }
   put_point(view, point, facing, d, out, i);
 }
@@ -80,7 +80,7 @@ void plane_surfaces(const SurfaceView& view, SurfaceBatch& batch, ShadingBatch& 
   if (lanes.wants_leaving()) {
     lanes.put_leaving(point, facing, plane_clearance(outward, on_plane, p));
     lanes.put_normal(facing);
-    store_rows(rounded(facing), out.facing, i);
+    store_rows(to_floats(facing), out.facing, i);
   }
   put_point(view, point, facing, d, out, i);
 }

@@ -65,12 +65,6 @@ class SurfaceLanes {
   std::size_t first_;
 };
 
-template <class F>
-auto rounded(const Vec3<F>& v) {
-  using Floats = decltype(to_float(v.x));
-  return Vec3<Floats>{to_float(v.x), to_float(v.y), to_float(v.z)};
-}
-
 // Gives the length `length` (1 or -1) to what has been rounded, as unit_rounded() does; what it does otherwise is doubtful.
 // F: floats.
 template <class F>
@@ -92,16 +86,16 @@ void make_unit(ShadingBatch::Rgb& vectors, const F& length, SurfaceBatch& batch)
 template <class F>
 void put_position(const Vec3<F>& scaled, ShadingBatch& out, std::size_t i) {
   const auto above = [](const F& x) { return x - to_double<F>(to_float(x)); };
-  store_rows(rounded(scaled), out.high, i);
-  store_rows(rounded(Vec3<F>{above(scaled.x), above(scaled.y), above(scaled.z)}), out.low, i);
+  store_rows(to_floats(scaled), out.high, i);
+  store_rows(to_floats(Vec3<F>{above(scaled.x), above(scaled.y), above(scaled.z)}), out.low, i);
 }
 // N and -V are left to make_unit().
 template <class F>
 void put_point(const SurfaceView& view, const Vec3<F>& point, const Vec3<F>& normal, const Vec3<F>& direction,
                ShadingBatch& out, std::size_t i) {
   put_position(F(view.length_scale) * point, out, i);
-  store_rows(rounded(normal), out.normal, i);
-  store_rows(rounded(direction), out.to_viewer, i);
+  store_rows(to_floats(normal), out.normal, i);
+  store_rows(to_floats(direction), out.to_viewer, i);
 }
 
 }  // namespace sidelight

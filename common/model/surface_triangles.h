@@ -148,7 +148,7 @@ class TriangleSurfaces {
   // N of triangles in which it does not change: what interpolate() and make_unit() would make of it.
   void put_one_normal(std::size_t r, const Vec3<F>& normal) {
     const Vec3<F> without_sign = normal + Vec3<F>{F(0), F(0), F(0)};  // of zeros
-    const auto unit = normalized(rounded(without_sign));
+    const auto unit = normalized(to_floats(without_sign));
     store_rows<F>(Vec3<F>{to_double<F>(unit.x), to_double<F>(unit.y), to_double<F>(unit.z)},
                   runs_.unit_rounded, r);
     if (batch_.want_leaving) store_rows<F>(normalized(without_sign), runs_.unit, r);
@@ -169,7 +169,7 @@ class TriangleSurfaces {
   template <class OfRun>
   void locate(std::size_t i, const OfRun& of_run) {
     const Vec3<F> d = SurfaceLanes<F>(batch_, i).direction(view_);
-    if (batch_.shiny) store_rows(rounded(d), out_.to_viewer, i);
+    if (batch_.shiny) store_rows(to_floats(d), out_.to_viewer, i);
     std::array<F, 3> e;
     for (std::size_t k = 0; k < 3; ++k) e[k] = dot(d, of_run.vector(runs_.edge[k]));
     const F all = (e[0] + e[1]) + e[2], size_of_d = batch_.own_rays ? l1_norm(d) : F(view_.longest);
@@ -198,18 +198,18 @@ class TriangleSurfaces {
     const Vec3<F> facing_here = of_run.vector(runs_.facing);
     SurfaceLanes<F>(batch_, i).put_leaving(F(1 / view_.length_scale) * scaled, facing_here,
                                            of_run(runs_.clearance.data()));
-    store_rows(rounded(facing_here), out_.facing, i);
+    store_rows(to_floats(facing_here), out_.facing, i);
   }
 
   template <class OfRun>
   void interpolate(std::size_t i, const OfRun& of_run) {
     const Vec3<F> normal = between(i, of_run, runs_.normal, runs_.to_normal1, runs_.to_normal2);
-    store_rows(rounded(normal), out_.normal, i);
+    store_rows(to_floats(normal), out_.normal, i);
     if (batch_.want_leaving) SurfaceLanes<F>(batch_, i).put_normal(normalized(normal));
   }
   template <class OfRun>
   void copy_normal(std::size_t i, const OfRun& of_run) {
-    store_rows(rounded(of_run.vector(runs_.unit_rounded)), out_.normal, i);
+    store_rows(to_floats(of_run.vector(runs_.unit_rounded)), out_.normal, i);
     if (batch_.want_leaving) SurfaceLanes<F>(batch_, i).put_normal(of_run.vector(runs_.unit));
   }
 
