@@ -5,9 +5,8 @@
 
 #include <span>
 
-#include "raytrace/ball_batch.h"
-#include "raytrace/optics_batch.h"
 #include "raytrace/prepared.h"
+#include "raytrace/ray_batches.h"
 
 namespace sidelight::raytrace {
 

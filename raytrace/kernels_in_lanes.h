@@ -4,9 +4,8 @@
 // instruction set.
 #pragma once
 
-#include "raytrace/ball_kernel.h"
-#include "raytrace/optics_kernel.h"
 #include "raytrace/packet_kernel.h"
+#include "raytrace/ray_batch_kernel.h"
 #include "raytrace/ray_kernel.h"
 #include "raytrace/shadow_places_kernel.h"
 

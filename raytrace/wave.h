@@ -11,14 +11,12 @@
 
 #include "common/model/surface_batch.h"
 #include "common/picture/frame.h"
-#include "raytrace/ball_batch.h"
 #include "raytrace/clearings.h"
 #include "raytrace/enclosed.h"
 #include "raytrace/eye_packets.h"
 #include "raytrace/kernels.h"
 #include "raytrace/lone_hit.h"
 #include "raytrace/media_sets.h"
-#include "raytrace/optics_batch.h"
 #include "raytrace/secondary.h"
 #include "raytrace/shadow_packets.h"
 
