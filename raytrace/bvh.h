@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A bounding volume hierarchy over boxes, eight wide. It does not know what a primitive is: it is built from boxes, and
-// a traversal hands the leaves it reaches to the caller.
+// a traversal hands the items it reaches to the caller (kernels.h).
 //
 // I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007 (binned surface area heuristic);
 // I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008 (wide nodes: all children of a node at once);
@@ -16,7 +16,6 @@
 #include <span>
 
 #include "common/kept_memory.h"
-#include "common/math/isa.h"
 #include "common/model/visibility.h"
 
 namespace sidelight::raytrace {
@@ -63,33 +62,5 @@ using BoxesOf = std::function<void(std::span<const std::uint32_t> items, Box* bo
 // boxes_of is called from several threads, and twice for each item: boxes as doubles would be as much memory as all that
 // the builder holds besides. The same for any number of threads.
 Bvh build_bvh(std::span<const std::uint32_t> items, const BoxesOf& boxes_of, int threads = 1);
-
-// What a traversal does with a leaf, items[first, first + count): returns the new limit, negative to stop.
-struct LeafVisitor {
-  void* context;
-  double (*visit)(void* context, std::uint32_t first, std::uint32_t count, double limit);
-};
-
-// Visits every leaf whose box the ray may meet at a depth <= limit, nearer ones first as far as nodes are sorted by it.
-// No hit that visibility.h would report at a depth <= limit is lost: boxes are padded for the rounding of v - o and of
-// sphere roots (64 u of all coordinates involved), the limit for that of a depth (2^-18). The ray must be finite.
-// Returns the number of nodes entered. Neither it nor the order depends on `isa`.
-std::uint64_t visit_leaves(Isa isa, const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
-
-// The same, item by item: leaf(item, limit) returns the new limit.
-template <class Leaf>
-std::uint64_t traverse(const Bvh& bvh, const Ray& ray, double limit, const Leaf& leaf, Isa isa = best_isa()) {
-  struct Context {
-    const Bvh& bvh;
-    const Leaf& leaf;
-  } context{bvh, leaf};
-  return visit_leaves(isa, bvh, ray, limit,
-                      {&context, [](void* to, std::uint32_t first, std::uint32_t count, double current) {
-                         const auto& self = *static_cast<Context*>(to);
-                         for (std::uint32_t i = first; i < first + count && current >= 0; ++i)
-                           current = self.leaf(self.bvh.items[i], current);
-                         return current;
-                       }});
-}
 
 }  // namespace sidelight::raytrace

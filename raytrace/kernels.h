@@ -20,6 +20,12 @@ PrimitiveVisitor visitor_of(Visit& visit) {
   return {&visit, [](void* to, std::uint32_t primitive) { (*static_cast<Visit*>(to))(primitive); }};
 }
 
+// What a traversal does with an item of the tree: returns the new limit, negative to stop.
+struct ItemVisitor {
+  void* context;
+  double (*visit)(void* context, std::uint32_t item, double limit);
+};
+
 // Of which primitives but `except` may stands_near() be true at the point, where nearness() is at most `distance`?
 // Those and some others are visited.
 struct NearQuestion {
@@ -73,7 +79,11 @@ struct Kernels {
   // Visits all primitives that may be met at a depth from `from` to `limit`.
   void (*candidates)(const Prepared& prepared, const Ray& ray, double from, double limit,
                      VisibilityCounts& counts, const PrimitiveVisitor& visitor);
-  std::uint64_t (*visit_leaves)(const Bvh& bvh, const Ray& ray, double limit, const LeafVisitor& visitor);
+  // Visits every item whose leaf's box the ray may meet at a depth <= limit, nearer leaves first as far as nodes are sorted
+  // by it. No hit that visibility.h would report at a depth <= limit is lost: boxes are padded for the rounding of v - o and
+  // of sphere roots (64 u of all coordinates involved), the limit for that of a depth (2^-18). Returns the number of nodes
+  // entered. Neither it nor the order depends on the instruction set.
+  std::uint64_t (*traverse)(const Bvh& bvh, const Ray& ray, double limit, const ItemVisitor& visitor);
   void (*near_triangles)(const TriangleLeaves& leaves, const NearQuestion& question);
   void (*near_spheres)(const SphereLeaves& leaves, const NearQuestion& question);
   double (*inset)(const TriangleLeaves& leaves, const InsetQuestion& question);
@@ -94,6 +104,17 @@ const Kernels& kernels_avx512();
 
 inline const Kernels& kernels_for(Isa isa) {
   return by_isa(isa, kernels_scalar, kernels_avx2, kernels_avx512)();
+}
+
+// Kernels::traverse with visit(item, limit).
+template <class Visit>
+std::uint64_t traverse(const Bvh& bvh, const Ray& ray, double limit, const Visit& visit,
+                       Isa isa = best_isa()) {
+  const auto call = [](void* to, std::uint32_t item, double current) {
+    return (**static_cast<const Visit**>(to))(item, current);
+  };
+  const Visit* context = &visit;
+  return kernels_for(isa).traverse(bvh, ray, limit, {&context, call});
 }
 
 }  // namespace sidelight::raytrace

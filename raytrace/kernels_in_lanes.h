@@ -14,7 +14,7 @@ namespace sidelight::raytrace {
 template <class F, class B, class D>
 inline constexpr Kernels kKernels{
     nearest_in_lanes<B, D>,    nearest_of_in_lanes<B, D>, blocker_in_lanes<B, D>,
-    blocked_of_in_lanes<B, D>, candidates_in_lanes<B, D>, visit_leaves_in_lanes<B, D>,
+    blocked_of_in_lanes<B, D>, candidates_in_lanes<B, D>, traverse_in_lanes<B, D>,
     near_in_lanes<B, D>,       near_in_lanes<B, D>,       inset_in_lanes<B, D>,
     directions_in_lanes<D>,    own_hits_in_lanes<D>,      trace_packet_in_lanes<F, B, D>,
     find_places_in_lanes<D>};

@@ -228,11 +228,14 @@ template <class F, class D>
   });
 }
 
+// D, in the name only, keeps apart what is compiled for several instruction sets (tests/test_arrows.cpp).
 template <class F, class D>
-[[gnu::flatten]] std::uint64_t visit_leaves_in_lanes(const Bvh& bvh, const Ray& ray, double limit,
-                                                     const LeafVisitor& visitor) {
+[[gnu::flatten]] std::uint64_t traverse_in_lanes(const Bvh& bvh, const Ray& ray, double limit,
+                                                 const ItemVisitor& visitor) {
   return walk<F>(bvh, ray, 0, limit, [&](std::uint32_t first, std::uint32_t count, double current) {
-    return visitor.visit(visitor.context, first, count, current);
+    for (std::uint32_t i = first; i < first + count && current >= 0; ++i)
+      current = visitor.visit(visitor.context, bvh.items[i], current);
+    return current;
   });
 }
 

@@ -183,9 +183,4 @@ std::vector<Hit> hits_between(const Prepared& prepared, const Ray& ray, const Hi
   return hits;
 }
 
-std::uint64_t visit_leaves(Isa isa, const Bvh& bvh, const Ray& ray, double limit,
-                           const LeafVisitor& visitor) {
-  return kernels_for(isa).visit_leaves(bvh, ray, limit, visitor);
-}
-
 }  // namespace sidelight::raytrace

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <set>
 
-#include "raytrace/bvh.h"
+#include "raytrace/kernels.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/random.h"
 #include "tests/support/wide.h"
