@@ -16,8 +16,21 @@ struct LeafVerdict {
   std::uint32_t may = 0, must = 0;
 };
 
-// `count` of a leaf, said so that a vector of eight is known to be enough.
-inline std::uint32_t lanes_used(std::uint32_t count) { return count < Bvh::kMaxLeaf ? count : Bvh::kMaxLeaf; }
+// That of `count` primitives, of meet(lane) for the lanes from each on.
+template <class D, class Meet>
+[[gnu::always_inline]] inline LeafVerdict verdict_of_leaf(std::uint32_t count, const Meet& meet) {
+  const std::uint32_t used =
+      count < Bvh::kMaxLeaf ? count : Bvh::kMaxLeaf;  // so that eight lanes are known to be enough
+  LeafVerdict verdict;
+  for (std::uint32_t lane = 0; lane < used; lane += kLanes<D>) {
+    const LeafVerdict of_lanes = meet(lane);
+    verdict.may |= of_lanes.may << lane;
+    verdict.must |= of_lanes.must << lane;
+  }
+  verdict.may &= (1u << count) - 1;
+  verdict.must &= verdict.may;
+  return verdict;
+}
 
 inline constexpr double kUnit = 0x1p-53;  // unit roundoff
 // Depths of visibility.h are good to 2^-18.
@@ -55,17 +68,11 @@ class TriangleFilter {
   // Of the `count` triangles of a leaf, which are met at a depth in (0, limit].
   LeafVerdict operator()(const double* leaf, std::uint32_t count, double limit) const {
     const std::size_t rows = count;
-    LeafVerdict verdict;
-    for (std::uint32_t lane = 0; lane < lanes_used(count); lane += kLanes<D>) {
+    return verdict_of_leaf<D>(count, [&](std::uint32_t lane) {
       const double* first = leaf + lane;
-      const LeafVerdict of_lanes =
-          meet({first + axis_[0] * rows, first + axis_[1] * rows, first + axis_[2] * rows}, 3 * rows, limit);
-      verdict.may |= of_lanes.may << lane;
-      verdict.must |= of_lanes.must << lane;
-    }
-    verdict.may &= (1u << count) - 1;
-    verdict.must &= verdict.may;
-    return verdict;
+      return meet({first + axis_[0] * rows, first + axis_[1] * rows, first + axis_[2] * rows}, 3 * rows,
+                  limit);
+    });
   }
 
  private:
@@ -131,15 +138,7 @@ class SphereFilter {
   // Of the `count` spheres of a leaf, which may be met at a depth in (0, limit]; which surely are, before the limit and all
   // rounding of it (before_light()).
   LeafVerdict operator()(const double* leaf, std::uint32_t count, double limit) const {
-    LeafVerdict verdict;
-    for (std::uint32_t lane = 0; lane < lanes_used(count); lane += kLanes<D>) {
-      const LeafVerdict of_lanes = meet(leaf + lane, count, limit);
-      verdict.may |= of_lanes.may << lane;
-      verdict.must |= of_lanes.must << lane;
-    }
-    verdict.may &= (1u << count) - 1;
-    verdict.must &= verdict.may;
-    return verdict;
+    return verdict_of_leaf<D>(count, [&](std::uint32_t lane) { return meet(leaf + lane, count, limit); });
   }
 
  private:
