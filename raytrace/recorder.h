@@ -5,8 +5,7 @@
 
 #include <utility>
 
-#include "common/model/explanation.h"
-#include "raytrace/path.h"
+#include "raytrace/secondary.h"
 
 namespace sidelight::raytrace {
 
@@ -71,7 +70,7 @@ class TreeRecorder {
     return out;
   }
 
-  std::vector<RayRecord> open_;   // the rays from the root to the one being traced
+  std::vector<RayRecord> open_;  // the rays from the root to the one being traced
   RayRecord root_;
 };
 

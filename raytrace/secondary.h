@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: MIT
-// The rays that leave a surface: towards its mirror image, through it, and towards the lights. What the recursion
-// (whitted.h) sends one by one and the waves (wave.h) level by level is said here, once.
+// A ray on its way, and the rays that leave a surface: towards its mirror image, through it, and towards the lights. What
+// the recursion (whitted.h) sends one by one and the waves (wave.h) level by level is said here, once.
 #pragma once
 
 #include <algorithm>
 
-#include "raytrace/path.h"
+#include "common/model/explanation.h"
+#include "raytrace/media.h"
 #include "raytrace/prepared.h"
 
 namespace sidelight::raytrace {
+
+// A ray with what the recursion needs to know about its past.
+struct Path {
+  Ray ray;
+  RayKind kind = RayKind::eye;
+  Hit start = kRayStart;  // hits up to here lie behind it already
+  Media media;            // where it travels
+  int depth = 1;          // rays along the path, this one included
+  double weight = 1;      // product of the largest channels of c2, c3 along the path
+};
 
 inline double largest(const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); }
 
