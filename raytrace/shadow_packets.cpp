@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "common/math/norms.h"
 #include "raytrace/secondary.h"
@@ -24,24 +25,11 @@ std::int32_t spread(std::int32_t x) {
   return (x | x << 1) & 0x5555;
 }
 
-// The smaller (greater) of two; as std::min() has it, but something that is done to many at once.
-struct Less {
-  template <class T>
-  T operator()(T a, T b) const {
-    return b < a ? b : a;
-  }
-};
-struct More {
-  template <class T>
-  T operator()(T a, T b) const {
-    return a < b ? b : a;
-  }
-};
-
-// The least (greatest) of sixteen, by halves.
-template <class Pick, class T>
-T of_group(const T* x, const Pick& pick) {
+// The first of sixteen in this order, by halves: something that is done to many at once, as std::min() is not.
+template <class Before, class T>
+T of_group(const T* x, const Before& before) {
   static_assert(RayPacket::kGroup == 16);
+  const auto pick = [&](T a, T b) { return before(b, a) ? b : a; };
   std::array<T, 8> left;
   for (std::size_t i = 0; i < 8; ++i) left[i] = pick(x[i], x[i + 8]);
   for (std::size_t i = 0; i < 4; ++i) left[i] = pick(left[i], left[i + 4]);
@@ -81,17 +69,17 @@ void ShadowPackets::trace(const Light& light, const ShadowQueries& queries, std:
   const auto asks = std::find_if(queries.asks.begin(), queries.asks.end(), [](auto ask) { return ask != 0; });
   if (asks == queries.asks.end()) return;
   // Most often one face will do, though some of the places lie beyond its edges.
-  face_ = face_towards(queries[static_cast<std::size_t>(asks - queries.asks.begin())].from, light.position);
-  if (find_places(isa_, queries, face_, places_)) {
+  face_ = face_towards(queries.from(static_cast<std::size_t>(asks - queries.asks.begin())), light.position);
+  if (find_places(isa_, queries, face_, true, places_)) {
     trace_face(dark, counts);
   } else {
     for (int face = 0; face < 6; ++face) {
       face_ = {face / 2, face % 2 == 0 ? 1.0 : -1.0, light.position};
-      find_places_behind(isa_, queries, face_, places_);
+      find_places(isa_, queries, face_, false, places_);
       trace_face(dark, counts);
     }
     for (std::size_t i = 0; i < queries.size(); ++i)
-      if (queries.asks[i] != 0 && max_norm(queries[i].from - light.position) < CubeFace::kLeastDepth)
+      if (queries.asks[i] != 0 && max_norm(queries.from(i) - light.position) < CubeFace::kLeastDepth)
         leave(i);
   }
   trace_left(dark, counts);
@@ -101,8 +89,8 @@ void ShadowPackets::trace(const Light& light, const ShadowQueries& queries, std:
 ShadowPackets::Extent ShadowPackets::group_at(std::size_t first) const {
   const float *u = &places_.u[first], *v = &places_.v[first], *per_depth = &places_.per_depth[first];
   if (first + RayPacket::kGroup <= places_.size())
-    return {of_group(u, Less()), of_group(u, More()), of_group(v, Less()), of_group(v, More()),
-            of_group(per_depth, Less())};
+    return {of_group(u, std::less()), of_group(u, std::greater()), of_group(v, std::less()),
+            of_group(v, std::greater()), of_group(per_depth, std::less())};
   Extent group;
   for (std::size_t i = 0; first + i < places_.size(); ++i)
     group.grow(Extent{u[i], u[i], v[i], v[i], per_depth[i]});
@@ -217,7 +205,7 @@ void ShadowPackets::trace_groups(std::size_t first, std::size_t last, std::vecto
 // A ray that goes without a packet.
 void ShadowPackets::leave(std::size_t number) {
   left_.push_back(static_cast<std::uint32_t>(number));
-  questions_.push_back({ray_to_light((*queries_)[number].from, *light_)});
+  questions_.push_back({ray_to_light(queries_->from(number), *light_)});
 }
 
 void ShadowPackets::trace_left(std::vector<std::uint8_t>& dark, VisibilityCounts& counts) {
@@ -233,7 +221,7 @@ void ShadowPackets::ask(RayPacket& packet, std::size_t ray, std::uint32_t primit
   // As blocker() does; what casts no shadow is not asked about.
   const Scene& scene = self.prepared_.scene;
   const Ray exact =
-      ray_to_light((*self.queries_)[static_cast<std::size_t>(self.number_[ray])].from, *self.light_);
+      ray_to_light(self.queries_->from(static_cast<std::size_t>(self.number_[ray])), *self.light_);
   const Hit hit = intersect(scene, primitive, exact, kRayStart, counts);
   if (!hit.found() || !before_light(scene, hit, exact, self.light_->position, counts)) return;
   packet.primitive[ray] = static_cast<std::int32_t>(primitive);

@@ -22,7 +22,7 @@ class ShadowPackets {
  public:
   ShadowPackets(const Prepared& prepared, Isa isa);
 
-  // dark[k] != 0 where queries[k] asks and something blocks it.
+  // dark[k] != 0 where query k asks and something blocks it.
   void trace(const Light& light, const ShadowQueries& queries, std::vector<std::uint8_t>& dark,
              VisibilityCounts& counts);
 

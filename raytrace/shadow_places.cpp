@@ -11,13 +11,6 @@ namespace {
 
 constexpr std::size_t kWholeLanes = 16;
 
-// Room for what lanes write beyond the last place.
-std::size_t find(Isa isa, const ShadowQueries& queries, const CubeFace& face, bool all,
-                 ShadowPlaces& places) {
-  places.resize(queries.size() + kWholeLanes);
-  return kernels_for(isa).find_places(queries, face, all, places);
-}
-
 }  // namespace
 
 void ShadowQueries::resize(std::size_t size) {
@@ -46,14 +39,13 @@ CubeFace face_towards(const glm::dvec3& point, const glm::dvec3& light) {
   return face;
 }
 
-bool find_places(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places) {
-  const std::size_t size = find(isa, queries, face, true, places);
+bool find_places(Isa isa, const ShadowQueries& queries, const CubeFace& face, bool all,
+                 ShadowPlaces& places) {
+  places.resize(queries.size() + kWholeLanes);  // room for what lanes write beyond the last place
+  const std::size_t size = kernels_for(isa).find_places(queries, face, all, places);
   if (size == kNotSeen) return false;
   places.resize(size);
   return true;
-}
-void find_places_behind(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places) {
-  places.resize(find(isa, queries, face, false, places));
 }
 
 }  // namespace sidelight::raytrace

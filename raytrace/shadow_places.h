@@ -12,32 +12,20 @@
 
 namespace sidelight::raytrace {
 
-struct ShadowQuery {
-  glm::dvec3 from{0};  // leaving_point(); the light is on the side of the surface on which it lies
-  // The primitive that asks, where it is flat, or a sphere that is left outward; else kNone.
-  std::uint32_t own = kNone;
-};
-
-// Side by side, for all lights in turn. Neighbours in this order should be neighbours in space.
+// Side by side, for all lights in turn. A light that is asked is on the side of the surface on which the point lies.
+// Neighbours in this order should be neighbours in space.
 class ShadowQueries {
  public:
-  std::vector<double> x, y, z;     // ShadowQuery::from
-  std::vector<std::int32_t> own;   // ShadowQuery::own, -1 for kNone
+  std::vector<double> x, y, z;  // leaving_point()
+  std::vector<std::int32_t>
+      own;  // the primitive that asks, where it is flat, or a sphere that is left outward; else -1
   std::vector<std::int32_t> asks;  // not 0 where the light is to be asked
   bool seen_by_eye = true;         // else by secondary rays: then neighbours lie farther apart
 
   std::size_t size() const { return asks.size(); }
   // To a number of queries, rounded up to whole lanes; those that are added ask nothing.
   void resize(std::size_t size);
-  ShadowQuery operator[](std::size_t i) const {
-    return {{x[i], y[i], z[i]}, static_cast<std::uint32_t>(own[i])};
-  }
-  void set(std::size_t i, const ShadowQuery& query) {
-    x[i] = query.from.x;
-    y[i] = query.from.y;
-    z[i] = query.from.z;
-    own[i] = static_cast<std::int32_t>(query.own);
-  }
+  glm::dvec3 from(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
 // From where a light is seen through: P = light + depth (axis + u U + v V), U and V being the axes that follow.
@@ -65,10 +53,9 @@ struct ShadowPlaces {
   void resize(std::size_t size);
 };
 
-// Of all queries that ask: true if they can all be seen through this face; else `places` are of no use.
-bool find_places(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places);
-// Of those that ask and that lie behind this face itself.
-void find_places_behind(Isa isa, const ShadowQueries& queries, const CubeFace& face, ShadowPlaces& places);
+// Of all queries that ask: true if they can all be seen through this face; else `places` are of no use. Or, not of all, of
+// those that lie behind this face itself.
+bool find_places(Isa isa, const ShadowQueries& queries, const CubeFace& face, bool all, ShadowPlaces& places);
 inline constexpr std::size_t kNotSeen =
     ~std::size_t{0};  // what the kernel says where this face does not show all
 

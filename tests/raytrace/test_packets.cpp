@@ -14,7 +14,6 @@
 using namespace sidelight;
 using namespace sidelight::test;
 using raytrace::Prepared;
-using raytrace::ShadowQuery;
 
 namespace {
 
@@ -75,6 +74,12 @@ Camera drawn_camera(Scene& scene, const Drawn& drawn, Random& random) {
   return make_camera(scene.camera, 53, 39, 1);
 }
 
+// One of raytrace::ShadowQueries.
+struct ShadowQuery {
+  glm::dvec3 from{0};
+  std::uint32_t own = kNone;
+};
+
 // Where rays to lights leave: all that the eye sees.
 std::vector<ShadowQuery> seen_places(const Prepared& prepared, const Camera& camera) {
   std::vector<ShadowQuery> queries;
@@ -94,7 +99,7 @@ std::vector<ShadowQuery> seen_places(const Prepared& prepared, const Camera& cam
   return queries;
 }
 
-// The light is on the side of the surface on which the point lies, as ShadowQuery asks for.
+// The light is on the side of the surface on which the point lies, as ShadowQueries ask for.
 bool faces_light(const Scene& scene, const ShadowQuery& query, const Light& light) {
   if (query.own == kNone) return true;
   const PrimitiveRef ref = primitive_ref(scene, query.own);
@@ -162,7 +167,10 @@ Counts check_shadows(const Prepared& prepared, const Light& light, const std::ve
   asked.seen_by_eye = seen_by_eye;
   asked.resize(queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    asked.set(i, queries[i]);
+    asked.x[i] = queries[i].from.x;
+    asked.y[i] = queries[i].from.y;
+    asked.z[i] = queries[i].from.z;
+    asked.own[i] = static_cast<std::int32_t>(queries[i].own);
     asked.asks[i] = faces_light(prepared.scene, queries[i], light);
   }
   raytrace::ShadowPackets packets(prepared, isa);
