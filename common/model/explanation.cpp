@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/model/explanation.h"
 
+#include "common/model/shading.h"
+
 namespace sidelight {
 namespace {
 

@@ -7,9 +7,15 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "common/model/shading.h"
+#include "common/model/surface.h"
 
 namespace sidelight {
+
+// Of phong.h and shading.h, which bring lanes with them: whoever only reads records, as the window does, need not.
+template <class F>
+struct LightTerm;
+template <class T>
+struct ShadingTablesOf;
 
 // What one light adds to a surface: T = diffuse + specular, counted where `seen`.
 struct LightRecord {
@@ -70,7 +76,7 @@ std::vector<glm::dvec3> leaves(const RayRecord& root);
 LightRecord record_light(std::size_t light, const LightTerm<float>& term);
 
 // Local light with every light seen, term by term: the scalar twin of what shade() computes, and so its bits.
-LocalRecord record_local(const Scene& scene, const ShadingTables& tables, const Ray& ray, const Hit& hit,
-                         VisibilityCounts& counts);
+LocalRecord record_local(const Scene& scene, const ShadingTablesOf<float>& tables, const Ray& ray,
+                         const Hit& hit, VisibilityCounts& counts);
 
 }  // namespace sidelight
