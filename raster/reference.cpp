@@ -105,13 +105,9 @@ void render_row(const Scene& scene, const Camera& camera, int y, Frame& frame, V
       }
 
   // Then light what is visible.
-  PixelWriter pixel(frame, camera.depth_scale());
-  for (int x = frame.window.x0; x < frame.window.x1; ++x) {
-    for (int Y = n * y; Y < n * (y + 1); ++Y)
-      for (int X = n * x; X < n * (x + 1); ++X)
-        pixel.add(shade(scene, {camera.eye, camera.direction(X, Y)}, z_buffer[sample(X, Y)], counts));
-    pixel.write(x, y);
-  }
+  write_row(frame, camera.depth_scale(), y, [&](int X, int Y) {
+    return shade(scene, {camera.eye, camera.direction(X, Y)}, z_buffer[sample(X, Y)], counts);
+  });
 }
 
 }  // namespace
@@ -119,12 +115,9 @@ void render_row(const Scene& scene, const Camera& camera, int y, Frame& frame, V
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);
   std::vector<RenderStats> stats(static_cast<std::size_t>(thread_count(options.threads)));
-  std::atomic<int> rows{0};
-  parallel_for(frame.height(), options.threads, [&](int row, int thread) {
-    if (options.cancel && *options.cancel) throw Interrupted();
+  for_each_part(options, frame.height(), [&](int row, int thread) {
     render_row(scene, camera, frame.window.y0 + row, frame,
                stats[static_cast<std::size_t>(thread)].visibility);
-    if (options.progress) options.progress(static_cast<double>(++rows) / frame.height());
   });
   for (const RenderStats& s : stats) frame.stats.add_counts(s);
   return frame;

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "common/model/place.h"
-#include "common/parallel.h"
 #include "common/picture/pixel.h"
 #include "raytrace/raytrace.h"
 
@@ -27,7 +26,7 @@ using glm::normalize;
 using Solids = std::set<std::uint32_t>;  // the objects a ray is inside of
 
 // color = ambient + diffuse + specular - shadow + mirrored + refracted
-struct Light3 {
+struct Traced {
   dvec3 color{0};                             // what the ray brings back
   dvec3 ambient{0}, diffuse{0}, specular{0};  // of which, local and unshadowed
   dvec3 shadow{0}, mirrored{0}, refracted{0};
@@ -39,7 +38,7 @@ class Tracer {
  public:
   Tracer(const Scene& scene, RenderStats& stats) : scene_(scene), stats_(stats) {}
 
-  Light3 trace(const Ray& ray, Hit start, Solids inside, int depth, double weight);
+  Traced trace(const Ray& ray, Hit start, Solids inside, int depth, double weight);
   Solids solids_around(const dvec3& eye) const;
 
  private:
@@ -47,9 +46,9 @@ class Tracer {
   dvec3 leaving_from(const Ray& ray, const Hit& hit, const Place& place);
   bool sees_light(const dvec3& from, const Light& light);
   void add_local(const Place& place, const dvec3& from, const Material& material, const dvec3& N,
-                 const dvec3& V, Light3& out);
+                 const dvec3& V, Traced& out);
   void add_secondary(const Ray& ray, const Place& place, const dvec3& from, const Material& material,
-                     const dvec3& N, const Solids& inside, int depth, double weight, Light3& out);
+                     const dvec3& N, const Solids& inside, int depth, double weight, Traced& out);
   dvec3 follow(const Ray& ray, const Hit& start, const Solids& inside, const dvec3& c, int depth,
                double weight, std::uint64_t& counter);
   Solids behind(const Ray& ray, const Hit& hit, const Place& place, const Solids& inside);
@@ -66,8 +65,8 @@ bool same_medium(const Solids& a, const Solids& b) {
   return a.empty() || b.empty() ? a.empty() == b.empty() : *a.rbegin() == *b.rbegin();
 }
 
-Light3 Tracer::trace(const Ray& ray, Hit start, Solids inside, int depth, double weight) {
-  Light3 out;
+Traced Tracer::trace(const Ray& ray, Hit start, Solids inside, int depth, double weight) {
+  Traced out;
   Place place;
   for (;; start = out.hit) {
     // For each object: the nearest it is.
@@ -115,7 +114,7 @@ dvec3 Tracer::leaving_from(const Ray& ray, const Hit& hit, const Place& place) {
 
 // c1 [ ka Ia + sum_i b_i f_i(d) I_i (kd (N.L) + ks (Rl.V)^s) ], b_i = 0 where something stands before light i
 void Tracer::add_local(const Place& place, const dvec3& from, const Material& material, const dvec3& N,
-                       const dvec3& V, Light3& out) {
+                       const dvec3& V, Traced& out) {
   const dvec3 c1 = material.local;
   out.ambient = c1 * material.ambient * scene_.ambient;
   for (const Light& light : scene_.lights) {
@@ -156,7 +155,7 @@ bool Tracer::sees_light(const dvec3& from, const Light& light) {
 }
 
 void Tracer::add_secondary(const Ray& ray, const Place& place, const dvec3& from, const Material& material,
-                           const dvec3& N, const Solids& inside, int depth, double weight, Light3& out) {
+                           const dvec3& N, const Solids& inside, int depth, double weight, Traced& out) {
   const dvec3 c2 = scene_.trace.reflection ? material.reflect : dvec3(0);
   const dvec3 c3 = scene_.trace.refraction ? material.refract : dvec3(0);
   const dvec3 D = normalize(ray.direction), Nv = place.facing;
@@ -202,7 +201,7 @@ dvec3 Tracer::follow(const Ray& ray, const Hit& start, const Solids& inside, con
     return dvec3(0);
   }
   ++counter;
-  const Light3 seen = trace(ray, start, inside, depth + 1, weight);
+  const Traced seen = trace(ray, start, inside, depth + 1, weight);
   const Attenuation& q = scene_.trace.secondary_attenuation;
   const double r = seen.hit.found() ? (seen.hit.t - start.t) * glm::length(ray.direction) : INFINITY;
   const double falloff = q.q0 + (q.q1 > 0 ? q.q1 * r : 0) + (q.q2 > 0 ? q.q2 * r * r : 0);
@@ -232,7 +231,7 @@ Solids Tracer::solids_around(const dvec3& eye) const {
   return inside;
 }
 
-Sample to_sample(const Scene& scene, const Light3& light) {
+Sample to_sample(const Scene& scene, const Traced& light) {
   Sample sample;
   sample.color = light.color;
   sample[Layer::ambient] = light.ambient;
@@ -255,24 +254,14 @@ Frame render_reference(const Scene& scene, const Camera& camera, const RenderOpt
   Frame frame = make_frame(camera.width, camera.height, camera.n, options);
   std::vector<RenderStats> stats(static_cast<std::size_t>(frame.height()));
   const Solids around = Tracer(scene, stats[0]).solids_around(camera.eye);
-  std::atomic<int> done{0};
-
-  parallel_for(frame.height(), options.threads, [&](int row, int) {
-    if (options.cancel && *options.cancel) throw Interrupted();
+  for_each_part(options, frame.height(), [&](int row, int) {
     RenderStats& mine = stats[static_cast<std::size_t>(row)];
     Tracer tracer(scene, mine);
-    PixelWriter pixel(frame, camera.depth_scale());
-    const int n = camera.n, y = frame.window.y0 + row;
-    for (int x = frame.window.x0; x < frame.window.x1; ++x) {
-      for (int Y = n * y; Y < n * (y + 1); ++Y)
-        for (int X = n * x; X < n * (x + 1); ++X) {
-          ++mine.rays.primary;
-          const Ray ray{camera.eye, camera.direction(X, Y)};
-          pixel.add(to_sample(scene, tracer.trace(ray, kRayStart, around, 1, 1.0)));
-        }
-      pixel.write(x, y);
-    }
-    if (options.progress) options.progress(static_cast<double>(++done) / frame.height());
+    write_row(frame, camera.depth_scale(), frame.window.y0 + row, [&](int X, int Y) {
+      ++mine.rays.primary;
+      const Ray ray{camera.eye, camera.direction(X, Y)};
+      return to_sample(scene, tracer.trace(ray, kRayStart, around, 1, 1.0));
+    });
   });
   for (const RenderStats& s : stats) {
     frame.stats.add_counts(s);

@@ -42,23 +42,17 @@ template <class Real>
 void trace_row(const Prepared& prepared, const Camera& camera, const Media& eye_media,
                const RenderOptions& options, int y, Frame& frame, RenderStats& stats,
                std::vector<double>& cut) {
-  const int n = camera.n;
   NoRecorder<Real> nothing;
   Whitted<Real, NoRecorder<Real>> whitted(prepared, stats, nothing, options.faults, options.isa);
-  PixelWriter pixel(frame, camera.depth_scale());
-  for (int x = frame.window.x0; x < frame.window.x1; ++x) {
-    for (int Y = n * y; Y < n * (y + 1); ++Y)
-      for (int X = n * x; X < n * (x + 1); ++X) {
-        ++stats.rays.primary;
-        const std::uint64_t tests_before = stats.visibility.tests;
-        const Traced<Real> traced = whitted.trace(eye_path(camera, eye_media, X, Y));
-        if (!cut.empty()) cut[frame.index(x, y)] += traced.cut_weight;
-        Sample sample = to_sample(traced);
-        sample.tests = stats.visibility.tests - tests_before;
-        pixel.add(sample);
-      }
-    pixel.write(x, y);
-  }
+  write_row(frame, camera.depth_scale(), y, [&](int X, int Y) {
+    ++stats.rays.primary;
+    const std::uint64_t tests_before = stats.visibility.tests;
+    const Traced<Real> traced = whitted.trace(eye_path(camera, eye_media, X, Y));
+    if (!cut.empty()) cut[frame.index(X / camera.n, y)] += traced.cut_weight;
+    Sample sample = to_sample(traced);
+    sample.tests = stats.visibility.tests - tests_before;
+    return sample;
+  });
 }
 
 }  // namespace
@@ -75,31 +69,26 @@ namespace {
 
 constexpr int kWaveSamples = 32;  // along the edge of a tile: enough to fill lanes, few enough for the cache
 
-// parts(index) of each, with the statistics of each apart, so that their sums do not depend on which thread did what.
+// part(index, thread, statistics) of each, with the statistics of each apart, so that their sums do not depend on which
+// thread did what.
 template <class Part>
 void trace_parts(int size, const RenderOptions& options, RenderStats& sum, const Part& part) {
   std::vector<RenderStats> stats(static_cast<std::size_t>(size));
-  std::atomic<int> done{0};
-  parallel_for(size, options.threads, [&](int index, int thread) {
-    if (options.cancel && *options.cancel) throw Interrupted();
-    part(index, thread, stats[static_cast<std::size_t>(index)]);
-    if (options.progress) options.progress(static_cast<double>(++done) / size);
-  });
+  for_each_part(options, size,
+                [&](int index, int thread) { part(index, thread, stats[static_cast<std::size_t>(index)]); });
   for (const RenderStats& s : stats) sum.add_counts(s);
 }
 
 void trace_in_waves(const Prepared& prepared, const Camera& camera, const Media& eye_media,
                     const RenderOptions& options, Frame& frame, std::vector<double>& cut) {
   const int edge = std::max(1, std::min(options.tile, (kWaveSamples + camera.n - 1) / camera.n));
-  const int columns = (frame.width() + edge - 1) / edge, rows = (frame.height() + edge - 1) / edge;
+  const TileGrid grid{frame.window, edge};
   Clearings clearings(prepared);
   std::vector<std::unique_ptr<Wave>> waves(static_cast<std::size_t>(thread_count(options.threads)));
-  trace_parts(columns * rows, options, frame.stats, [&](int tile, int thread, RenderStats& stats) {
+  trace_parts(grid.count(), options, frame.stats, [&](int tile, int thread, RenderStats& stats) {
     std::unique_ptr<Wave>& wave = waves[static_cast<std::size_t>(thread)];
     if (!wave) wave = std::make_unique<Wave>(prepared, camera, eye_media, options, clearings);
-    const Rect& window = frame.window;
-    const int x0 = window.x0 + tile % columns * edge, y0 = window.y0 + tile / columns * edge;
-    wave->trace({x0, y0, std::min(x0 + edge, window.x1), std::min(y0 + edge, window.y1)}, stats);
+    wave->trace(grid.tile(tile), stats);
     wave->write(frame, cut);
   });
 }

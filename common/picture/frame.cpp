@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/error.h"
+#include "common/parallel.h"
 #include "common/scene/scene.h"
 
 namespace sidelight {
@@ -64,6 +66,21 @@ void look_for_sample_fault(const Frame& frame, Fault& fault) {
 }
 
 }  // namespace
+
+Rect TileGrid::tile(int index) const {
+  const int x0 = window.x0 + index % columns() * edge, y0 = window.y0 + index / columns() * edge;
+  return {x0, y0, std::min(x0 + edge, window.x1), std::min(y0 + edge, window.y1)};
+}
+
+void for_each_part(const RenderOptions& options, int parts,
+                   const std::function<void(int part, int thread)>& body) {
+  std::atomic<int> done{0};
+  parallel_for(parts, options.threads, [&](int part, int thread) {
+    if (options.cancel && *options.cancel) throw Interrupted();
+    body(part, thread);
+    if (options.progress) options.progress(static_cast<double>(++done) / parts);
+  });
+}
 
 void RenderStats::add_counts(const RenderStats& other) {
   rays.primary += other.rays.primary;

@@ -61,6 +61,16 @@ struct Rect {
   bool operator==(const Rect&) const = default;
 };
 
+// A part of a picture cut into square tiles of pixels, row by row; those at the right and lower border may be smaller.
+struct TileGrid {
+  Rect window;
+  int edge = 32;
+  int columns() const { return (window.width() + edge - 1) / edge; }
+  int rows() const { return (window.height() + edge - 1) / edge; }
+  int count() const { return columns() * rows(); }
+  Rect tile(int index) const;
+};
+
 struct Frame;
 
 struct RenderOptions {
@@ -77,6 +87,11 @@ struct RenderOptions {
   std::atomic<bool>* cancel = nullptr;  // raised from outside: the renderer throws Interrupted soon after
   std::function<void(double done)> progress;  // called now and then, from any thread, with done in [0, 1]
 };
+
+// body(part, thread) for each of `parts` parts of a picture (parallel_for), until options.cancel is raised: then throws
+// Interrupted. Tells options.progress of each that is done.
+void for_each_part(const RenderOptions& options, int parts,
+                   const std::function<void(int part, int thread)>& body);
 
 struct RayCounts {
   std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;

@@ -45,4 +45,16 @@ class PixelWriter {
   std::vector<double> kept_t_;
 };
 
+// The pixels of row y, picture coordinates: sample_at(X, Y) of the lattice for each of their samples.
+template <class SampleAt>
+void write_row(Frame& frame, double depth_scale, int y, const SampleAt& sample_at) {
+  const int n = frame.n;
+  PixelWriter pixel(frame, depth_scale);
+  for (int x = frame.window.x0; x < frame.window.x1; ++x) {
+    for (int Y = n * y; Y < n * (y + 1); ++Y)
+      for (int X = n * x; X < n * (x + 1); ++X) pixel.add(sample_at(X, Y));
+    pixel.write(x, y);
+  }
+}
+
 }  // namespace sidelight
