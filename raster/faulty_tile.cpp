@@ -39,11 +39,9 @@ FaultyTile::FaultyTile(const Camera& camera, const Rect& pixels, const Faults& f
       in_float_(faults.float_precision),
       samples_(static_cast<std::size_t>(box_.x1 - box_.x0) * static_cast<std::size_t>(box_.y1 - box_.y0)) {}
 
-// Primitives are drawn in the order of their numbers, whatever the order in which threads bring them.
+// Of what is stored alike the first stays: primitives are drawn in the order of their numbers.
 bool FaultyTile::wins(const Hit& hit, const Hit& nearest) const {
-  if (!nearest.found()) return true;
-  const double a = stored_.key(hit.t), b = stored_.key(nearest.t);
-  return a < b || (a == b && hit.primitive < nearest.primitive);
+  return !nearest.found() || stored_.key(hit.t) < stored_.key(nearest.t);
 }
 
 void FaultyTile::draw(const Scene& scene, std::uint32_t primitive, VisibilityCounts& counts) {

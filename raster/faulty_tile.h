@@ -31,6 +31,7 @@ class FaultyTile {
  public:
   FaultyTile(const Camera& camera, const Rect& pixels, const Faults& faults);
 
+  // Primitives in the order of their numbers.
   void draw(const Scene& scene, std::uint32_t primitive, VisibilityCounts& counts);
 
   const Hit& at(int X, int Y) const { return samples_[index(X, Y)].nearest; }

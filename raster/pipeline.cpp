@@ -7,7 +7,6 @@
 #include "common/clock.h"
 #include "common/float_state.h"
 #include "common/parallel.h"
-#include "raster/bins.h"
 #include "raster/faulty_tile.h"
 #include "raster/prepared.h"
 #include "raster/resolve.h"
@@ -65,12 +64,9 @@ void for_each_tile(const Job& job, Frame& frame, const ShadeTile& shade_tile) {
   std::vector<TileResolve> resolves;
   resolves.reserve(threads);
   while (resolves.size() < threads) resolves.emplace_back(job.prepared, job.camera, options);
-  std::atomic<int> done{0};
-  parallel_for(job.grid.count(), job.threads, [&](int tile, int thread) {
-    if (options.cancel && *options.cancel) throw Interrupted();
+  for_each_part(options, job.grid.count(), [&](int tile, int thread) {
     TileResolve& resolve = resolves[static_cast<std::size_t>(thread)];
     shade_tile(tile, thread, resolve, counts[static_cast<std::size_t>(thread)].visibility);
-    if (options.progress) options.progress(static_cast<double>(++done) / job.grid.count());
   });
   for (const ThreadCounts& of_thread : counts)
     frame.stats.add_counts({.rays = {}, .visibility = of_thread.visibility, .stages = {}});
@@ -112,15 +108,38 @@ void render_fast(const Job& job, Frame& frame) {
   frame.stats.stages.assign(stages.begin(), stages.end());
 }
 
+// Of each tile, ascending: the primitives that may show in it.
+std::vector<std::vector<std::uint32_t>> bin_primitives(const Job& job) {
+  const Scene& scene = job.prepared.scene;
+  const SampleBox window = samples_of(job.grid.window, job.camera.n);
+  std::vector<SampleBox> boxes(scene.primitive_object.size());
+  parallel_blocks(boxes.size(), job.threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      boxes[i] = intersection(box_of_primitive(scene, job.camera, static_cast<std::uint32_t>(i)), window);
+  });
+  std::vector<std::vector<std::uint32_t>> bins(static_cast<std::size_t>(job.grid.count()));
+  const int tile = job.camera.n * job.grid.edge;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const SampleBox& box = boxes[i];
+    if (box.empty()) continue;
+    for (int row = (box.y0 - window.y0) / tile; row <= (box.y1 - 1 - window.y0) / tile; ++row)
+      for (int column = (box.x0 - window.x0) / tile; column <= (box.x1 - 1 - window.x0) / tile; ++column)
+        bins[static_cast<std::size_t>(row * job.grid.columns() + column)].push_back(
+            static_cast<std::uint32_t>(i));
+  }
+  return bins;
+}
+
 // With the z-buffer that a student reads, which also has the faults and counts each pixel's tests.
 void render_readable(const Job& job, Frame& frame) {
   const Scene& scene = job.prepared.scene;
   const Faults& faults = job.options.faults;
-  const Bins bins = bin_primitives(scene, job.camera, job.grid, job.threads);
+  const auto bins = bin_primitives(job);
   for_each_tile(job, frame, [&](int tile, int, TileResolve& resolve, VisibilityCounts& counts) {
     const Rect pixels = job.grid.tile(tile);
     const auto draw_and_shade = [&](auto&& depth) {
-      bins.for_each(tile, [&](std::uint32_t primitive) { depth.draw(scene, primitive, counts); });
+      for (const std::uint32_t primitive : bins[static_cast<std::size_t>(tile)])
+        depth.draw(scene, primitive, counts);
       resolve.shade_hits(pixels, depth, counts);
       resolve.write(frame);
     };

@@ -41,9 +41,7 @@ void DepthTile<Recorder>::draw(const Scene& scene, std::uint32_t primitive, Visi
 template <class Recorder>
 void DepthTile<Recorder>::draw_triangle(const Scene& scene, std::uint32_t primitive, const Triangle& triangle,
                                         const SampleBox& box, VisibilityCounts& counts) {
-  const glm::dvec3& v0 = scene.positions[triangle.vertex[0]];
-  const glm::dvec3& v1 = scene.positions[triangle.vertex[1]];
-  const glm::dvec3& v2 = scene.positions[triangle.vertex[2]];
+  const auto [v0, v1, v2] = corners(scene, triangle);
   const TriangleView view = view_triangle(camera_.eye, v0, v1, v2);
   const int side = view_side(view, counts);
   if (side == 0) return;  // seen exactly edge-on

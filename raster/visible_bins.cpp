@@ -5,6 +5,7 @@
 
 #include "common/clock.h"
 #include "common/parallel.h"
+#include "raster/setup.h"
 
 namespace sidelight::raster {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/kept_memory.h"
-#include "raster/bins.h"
 #include "raster/kernels.h"
 #include "raster/prepared.h"
 

@@ -21,9 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Include {
-  std::string file;     // relative to the top, e.g. "raster/tile.cpp"
+  std::string file;  // relative to the top, e.g. "raster/tile.cpp"
   int line = 0;
-  std::string target;   // as written, e.g. "common/scene/scene.h" or "GLFW/glfw3.h"
+  std::string target;  // as written, e.g. "common/scene/scene.h" or "GLFW/glfw3.h"
   std::string where() const { return file + ':' + std::to_string(line) + ": #include " + target; }
 };
 
@@ -55,7 +55,8 @@ std::vector<Include> includes_of_the_tree() {
       for (std::string line; std::getline(file, line);) {
         ++number;
         const std::string target = included(line);
-        if (!target.empty()) found.push_back({fs::relative(entry.path(), root).generic_string(), number, target});
+        if (!target.empty())
+          found.push_back({fs::relative(entry.path(), root).generic_string(), number, target});
       }
     }
   }
@@ -73,7 +74,8 @@ std::string broken_arrow(const Include& include) {
   if (from_any("raster/") && to_any("raytrace/", "viewer/", "tests/")) return "raster knows only common";
   if (from_any("raytrace/") && to_any("raster/", "viewer/", "tests/")) return "raytrace knows only common";
   if (from_any("viewer/") && to_any("tests/")) return "the program does not know its tests";
-  if (from_any("viewer/") && to_any("raster/", "raytrace/") && to != "raster/raster.h" && to != "raytrace/raytrace.h")
+  if (from_any("viewer/") && to_any("raster/", "raytrace/") && to != "raster/raster.h" &&
+      to != "raytrace/raytrace.h")
     return "raster.h and raytrace.h are the only public headers of their folders";
   if (to_any("GLFW/", "GL/", "EGL/", "imgui") && !from_any("viewer/window/", "tests/bench/"))
     return "only viewer/window and tests/bench draw with OpenGL";
@@ -85,7 +87,8 @@ std::string output_of(const std::string& command) {
   REQUIRE(pipe);
   std::string text;
   std::array<char, 4096> buffer;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe.get())) text.append(buffer.data(), n);
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe.get()))
+    text.append(buffer.data(), n);
   return text;
 }
 
@@ -129,7 +132,7 @@ TEST_SUITE("arrows") {
                                        {"raster/tile.cpp", "raster/setup.h"},
                                        {"viewer/commands/render.cpp", "raster/raster.h"},
                                        {"viewer/window/gl.h", "GL/glcorearb.h"},
-                                       {"tests/raster/test_bins.cpp", "raster/bins.h"}})
+                                       {"tests/raster/test_setup.cpp", "raster/setup.h"}})
       CHECK(broken_arrow({file, 1, target}).empty());
   }
 
@@ -145,7 +148,8 @@ TEST_SUITE("arrows") {
     int objects = 0;
     for (const auto& entry : commands) {
       const std::string command = entry.at("command");
-      if (command.find(" -mavx") == std::string::npos && command.find(" -mfma") == std::string::npos) continue;
+      if (command.find(" -mavx") == std::string::npos && command.find(" -mfma") == std::string::npos)
+        continue;
       ++objects;
       const bool avx512 = command.find(" -mavx512") != std::string::npos;
       const std::size_t object = command.find(" -o ") + 4;
