@@ -151,3 +151,10 @@ ImageFile read_claimed(const std::string& path, const PictureClaim& claim) {
 }
 
 }  // namespace sidelight
+
+// What the library hands out, of this file and of image_write.cpp.
+extern "C" __attribute__((visibility("default"))) const sidelight::PictureCodec* sidelight_picture_codec() {
+  static constexpr sidelight::PictureCodec kCodec{sidelight::png_bytes, sidelight::png_linear16_bytes,
+                                                  sidelight::exr_bytes, sidelight::read_claimed};
+  return &kCodec;
+}
