@@ -14,8 +14,9 @@ class Clearings;
 // its origin, `reach` being Prepared::reach_from.
 double room_for(double reach, double way);
 
-// Whether a hit is lone and, as locate() has it, whether its ray comes from the outward side.
-enum class Lone : std::uint8_t { unknown, entering, leaving };
+// Whether a hit is lone and, as locate() has it, whether its ray comes from the outward side; `clear`: it is lone, as
+// is_clear() tells, and not on a solid, so that nobody asks for the side.
+enum class Lone : std::uint8_t { unknown, entering, leaving, clear };
 
 // Of any hit of any ray. `unknown` also where the ray grazes the surface. A solid that is lone there is crossed once.
 // With `clearings`, which may know of nothing near, there is less to search for.

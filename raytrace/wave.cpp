@@ -33,13 +33,14 @@ Wave::Wave(const Prepared& prepared, const Camera& camera, const Media& eye_medi
 }
 
 void Wave::trace(const Rect& pixels, RenderStats& stats) {
+  stats_ = &stats;
   begin(pixels);
-  if (!primary_) stats.rays.primary += samples();
-  trace_level(0, stats);
+  if (!primary_) stats_->rays.primary += samples();
+  trace_level(0);
   std::size_t depth = 0;
   while (true) {
     if (take_part(depth + 1)) {
-      trace_level(++depth, stats);
+      trace_level(++depth);
     } else if (depth > 0) {
       bring_back(levels_[depth], levels_[depth - 1]);
       --depth;
@@ -54,16 +55,15 @@ void Wave::trace(const Rect& pixels, RenderStats& stats) {
 }
 
 // What is sent on waits at the next level.
-void Wave::trace_level(std::size_t depth, RenderStats& stats) {
+void Wave::trace_level(std::size_t depth) {
   if (levels_.size() < depth + 2) levels_.resize(depth + 2);
   Level &level = levels_[depth], &next = levels_[depth + 1];
   level.depth = static_cast<int>(depth) + 1;
-  const bool eye = depth == 0;
-  find_hits(level, eye, stats);
-  find_surfaces(level, eye, stats);
-  if (shadows_) add_lights(level, stats);
-  sum_up(level, eye);
-  if (secondary_) send_secondary(level, next, stats);
+  find_hits(level);
+  find_surfaces(level);
+  if (shadows_) add_lights(level);
+  sum_up(level);
+  if (secondary_) send_secondary(level, next);
 }
 
 // Takes rays that wait at this depth as those that are traced next; false if there are none. Most often these are all of
@@ -120,18 +120,18 @@ void Wave::begin(const Rect& pixels) {
 }
 
 Ray Wave::ray_of(const Level& level, std::size_t ray) const {
-  if (!level.rays.empty()) return level.rays[ray].ray;
+  if (!level.is_eye()) return level.rays[ray].ray;
   const auto X = camera_.n * pixels_.x0 + static_cast<int>(order_[ray] % columns());
   const auto Y = camera_.n * pixels_.y0 + static_cast<int>(order_[ray] / columns());
   return {camera_.eye, camera_.direction(X, Y)};
 }
 
 MediaSets::Number Wave::media_of(const Level& level, std::size_t ray) const {
-  return level.rays.empty() ? 0 : level.rays[ray].media;
+  return level.is_eye() ? 0 : level.rays[ray].media;
 }
 
 double Wave::weight_of(const Level& level, std::size_t ray) const {
-  return level.rays.empty() ? 1 : level.rays[ray].weight;
+  return level.is_eye() ? 1 : level.rays[ray].weight;
 }
 
 // Path::start: of a ray that goes straight on, the hit that sent it.
@@ -156,19 +156,19 @@ void Wave::take_primary(std::vector<Hit>& hits) const {
   });
 }
 
-void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
-  const std::size_t size = eye ? samples() : level.rays.size();
-  if (eye && primary_) {
+void Wave::find_hits(Level& level) {
+  const std::size_t size = level.is_eye() ? samples() : level.rays.size();
+  if (level.is_eye() && primary_) {
     take_primary(level.hits);
-  } else if (eye) {
+  } else if (level.is_eye()) {
     eye_packets_.trace(camera_.n * pixels_.x0, camera_.n * pixels_.y0, static_cast<int>(columns()),
-                       camera_.n * pixels_.height(), level.hits, level.alone, stats.visibility);
+                       camera_.n * pixels_.height(), level.hits, level.alone, stats_->visibility);
   } else {
     level.hits.resize(size);
-    level.alone.assign(size, false);
-    find_first_hits(level, stats);
+    level.lone.assign(size, Lone::unknown);
+    find_first_hits(level);
     for (std::size_t i = 0; i < size; ++i)
-      level.hits[i] = first_shaded(level.hits[i], level.rays[i], level.alone[i], stats);
+      level.hits[i] = first_shaded(level.hits[i], level.rays[i], level.lone[i]);
   }
   level.color.assign(size, glm::vec3(scene_.background));
   if (!secondary_) return;
@@ -178,7 +178,7 @@ void Wave::find_hits(Level& level, bool eye, RenderStats& stats) {
 }
 
 // What rays meet of the balls that they start at: a ray that goes on inside, the far side; else nothing.
-void Wave::find_own_hits(Level& level, RenderStats& stats) {
+void Wave::find_own_hits(Level& level) {
   for (std::size_t i = 0; i < level.rays.size(); ++i) {
     const WaveRay& ray = level.rays[i];
     level.hits[i] = {};
@@ -193,14 +193,14 @@ void Wave::find_own_hits(Level& level, RenderStats& stats) {
     put(balls_.center, k, sphere.center);
     balls_.radius[k] = sphere.radius;
     balls_.passes[k] = ray.passes;
-    if (balls_.size == BallBatch::kCapacity) take_own_hits(level, stats);
+    if (balls_.size == BallBatch::kCapacity) take_own_hits(level);
   }
-  take_own_hits(level, stats);
+  take_own_hits(level);
 }
 
-void Wave::take_own_hits(Level& level, RenderStats& stats) {
+void Wave::take_own_hits(Level& level) {
   kernels_for(isa_).own_hits(balls_);
-  stats.visibility.tests += balls_.size;
+  stats_->visibility.tests += balls_.size;
   for (std::size_t k = 0; k < balls_.size; ++k)
     if (std::isfinite(balls_.t[k])) level.hits[balls_.ray[k]] = {balls_.t[k], level.rays[balls_.ray[k]].own};
   balls_.size = 0;
@@ -208,10 +208,10 @@ void Wave::take_own_hits(Level& level, RenderStats& stats) {
 
 // The nearest hits; not that of the surface at which a ray starts and is through: a flat one is not met again, a ball is
 // at its far side.
-void Wave::find_first_hits(Level& level, RenderStats& stats) {
+void Wave::find_first_hits(Level& level) {
   questions_.clear();
   asking_.clear();
-  find_own_hits(level, stats);
+  find_own_hits(level);
   const Level& parent = levels_[static_cast<std::size_t>(level.depth) - 2];
   for (std::size_t i = 0; i < level.rays.size(); ++i) {
     const WaveRay& ray = level.rays[i];
@@ -220,26 +220,25 @@ void Wave::find_first_hits(Level& level, RenderStats& stats) {
     questions_.push_back({ray.ray, start_of(ray, parent), ray.own, own});
     asking_.push_back(static_cast<std::uint32_t>(i));
   }
-  nearest_beside(prepared_, questions_, stats.visibility, isa_);
+  nearest_beside(prepared_, questions_, stats_->visibility, isa_);
   for (std::size_t k = 0; k < asking_.size(); ++k) level.hits[asking_[k]] = questions_[k].best;
 }
 
 // From the first hit of a secondary ray on: the first that is not just a surface inside of a medium that goes on behind
 // it.
-Hit Wave::first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats) {
-  for (;; hit = nearest(prepared_, ray.ray, hit, stats.visibility, Precision::exact, isa_)) {
-    alone = false;
+Hit Wave::first_shaded(Hit hit, WaveRay& ray, Lone& lone) {
+  for (;; hit = nearest(prepared_, ray.ray, hit, stats_->visibility, Precision::exact, isa_)) {
+    lone = Lone::unknown;
     if (!hit.found() || prepared_.solids.empty()) return hit;
     const std::uint32_t object = scene_.primitive_object[hit.primitive];
     if (!scene_.objects[object].solid) return hit;
-    const Lone lone = lone_hit(prepared_, ray.ray, hit, isa_, &clearings_);
-    alone = static_cast<std::uint8_t>(lone);
+    lone = lone_hit(prepared_, ray.ray, hit, isa_, &clearings_);
     const MediaSets::Number behind =
         lone != Lone::unknown
             ? media_.behind_lone(object, lone == Lone::entering, ray.media)
             : media_.number_of(media_behind(prepared_, ray.ray, hit,
-                                            surface_at(scene_, ray.ray, hit, stats.visibility),
-                                            media_[ray.media], stats.visibility));
+                                            surface_at(scene_, ray.ray, hit, stats_->visibility),
+                                            media_[ray.media], stats_->visibility));
     if (media_[behind].current() != media_[ray.media].current()) return hit;
     ray.media = behind;
   }

@@ -65,11 +65,13 @@ struct Level {
   std::vector<WaveRay> rays;     // none at the eye's level: those are the camera's
   std::vector<WaveRay> waiting;  // rays of this depth whose turn comes later
   std::vector<Hit> hits;
-  // Nothing else stands near the hit, where that is known: of the eye's level by EyePackets; of the others by is_clear()
-  // or, of hits on solids, by lone_hit(): then as it says.
-  std::vector<std::uint8_t> alone;
+  std::vector<std::uint8_t>
+      alone;               // of the eye's level: what EyePackets say of that, which is less than lone
+  std::vector<Lone> lone;  // of the others, of hits on solids by lone_hit(), else by is_clear()
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
   std::vector<double> cut;                            // likewise: weights not sent there, and below
+
+  bool is_eye() const { return depth == 1; }
 };
 
 // Whether the ray comes from the outward side, Nv being `facing`: as locate() has it.
@@ -100,43 +102,42 @@ class Wave {
 
   void begin(const Rect& pixels);
   void take_primary(std::vector<Hit>& hits) const;
-  void trace_level(std::size_t depth, RenderStats& stats);
+  void trace_level(std::size_t depth);
   bool take_part(std::size_t depth);
   void forget_media();
-  void find_hits(Level& level, bool eye, RenderStats& stats);
-  void find_first_hits(Level& level, RenderStats& stats);
-  void find_own_hits(Level& level, RenderStats& stats);
-  void take_own_hits(Level& level, RenderStats& stats);
-  Hit first_shaded(Hit hit, WaveRay& ray, std::uint8_t& alone, RenderStats& stats);
-  void find_surfaces(Level& level, bool eye, RenderStats& stats);
-  void find_seen_surfaces(Level& level, RenderStats& stats);
+  void find_hits(Level& level);
+  void find_first_hits(Level& level);
+  void find_own_hits(Level& level);
+  void take_own_hits(Level& level);
+  Hit first_shaded(Hit hit, WaveRay& ray, Lone& lone);
+  void find_surfaces(Level& level);
+  void find_seen_surfaces(Level& level);
   std::size_t add_seen(const Level& level, std::size_t first, const Object& object);
-  void flush(Level& level, SurfaceBatch& batch, bool eye, RenderStats& stats);
-  void find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch, RenderStats& stats);
+  void flush(Level& level, SurfaceBatch& batch);
+  void find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch);
   bool stands_alone(Level& level, std::size_t ray, ObjectKind kind);
   bool enters_ball(const Level& level, std::size_t ray, const glm::dvec3& facing) const;
-  void add_lights(const Level& level, RenderStats& stats);
-  void find_shadows(std::size_t light, RenderStats& stats);
+  void add_lights(const Level& level);
+  void find_shadows(std::size_t light);
   void find_queries(const Level& level);
-  void find_asking(std::size_t light, RenderStats& stats);
+  void find_asking(std::size_t light);
   void add_lights_of(HitBatch& batch) const;
-  void sum_up(Level& level, bool eye);
-  void send_secondary(Level& level, Level& next, RenderStats& stats);
-  void find_senders(Level& level, const HitBatch& batch, RenderStats& stats);
-  void find_behind(const Level& level, const HitBatch& batch, const Ray& ray, Sender& sender,
-                   VisibilityCounts& counts);
+  void sum_up(Level& level);
+  void send_secondary(Level& level, Level& next);
+  void find_senders(Level& level, const HitBatch& batch);
+  void find_behind(const Level& level, const HitBatch& batch, const Ray& ray, Sender& sender);
   bool is_total(std::size_t k) const {  // reflection at entry k of optics_
     return optics_.eta[k] != OpticsBatch::kNoRefraction && optics_.total[k] != 0;
   }
-  WaveRay* send(Level& level, std::uint32_t parent, const Share& share, RayKind kind, Level& next,
-                RenderStats& stats);
-  void send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
-  void send_transmitted(Level& level, const HitBatch& batch, std::size_t k, Level& next, RenderStats& stats);
+  WaveRay* send(Level& level, std::uint32_t parent, const Share& share, RayKind kind, Level& next);
+  void send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Level& next);
+  void send_transmitted(Level& level, const HitBatch& batch, std::size_t k, Level& next);
   template <class T>
   const std::vector<T>& in_rows(const std::vector<T>& of, std::vector<T>& rows) const;
   void bring_back(const Level& level, Level& parent) const;
   HitBatch& next_batch();
 
+  RenderStats* stats_ = nullptr;  // of trace()
   const Prepared& prepared_;
   const Scene& scene_;
   const Camera& camera_;

@@ -12,16 +12,16 @@ glm::vec3 rgb(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-void Wave::add_lights(const Level& level, RenderStats& stats) {
+void Wave::add_lights(const Level& level) {
   find_queries(level);
-  for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) find_shadows(light, stats);
+  for (std::size_t light = 0; light < prepared_.tables.lights.size(); ++light) find_shadows(light);
   for (std::size_t b = 0; b < used_; ++b) add_lights_of(batches_[b]);
 }
 
 void Wave::find_queries(const Level& level) {
   constexpr std::size_t kCapacity = ShadingBatch::kCapacity;
   queries_.resize(used_ * kCapacity);
-  queries_.seen_by_eye = level.rays.empty();
+  queries_.seen_by_eye = level.is_eye();
   // Not of eye rays, most of which travel in the open.
   const bool may_enclose = !queries_.seen_by_eye && !prepared_.solids.empty();
   enclosing_.resize(may_enclose ? queries_.size() : 0);
@@ -37,15 +37,15 @@ void Wave::find_queries(const Level& level) {
       if (batch.entering[i] == 0) queries_.own[first + i] = -1;
     for (std::size_t i = 0; i < size && may_enclose; ++i)
       enclosing_[first + i] = enclosures_.around(get(batch.from, i), media_[level.rays[batch.ray[i]].media],
-                                                 level.alone[batch.ray[i]]);
+                                                 level.lone[batch.ray[i]] != Lone::unknown);
   }
 }
 
 // Where a shadow ray is blocked, the light's state becomes that of a surface in its own light: b_i = 0.
-void Wave::find_shadows(std::size_t light, RenderStats& stats) {
+void Wave::find_shadows(std::size_t light) {
   const Light& source = scene_.lights[light];
-  find_asking(light, stats);
-  shadow_packets_.trace(source, queries_, dark_, stats.visibility);
+  find_asking(light);
+  shadow_packets_.trace(source, queries_, dark_, stats_->visibility);
   for (std::size_t b = 0, first = 0; b < used_; ++b, first += ShadingBatch::kCapacity) {
     ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
     for (std::size_t i = 0; i < static_cast<std::size_t>(batches_[b].size); ++i)
@@ -54,7 +54,7 @@ void Wave::find_shadows(std::size_t light, RenderStats& stats) {
 }
 
 // Which queries ask this light.
-void Wave::find_asking(std::size_t light, RenderStats& stats) {
+void Wave::find_asking(std::size_t light) {
   for (std::size_t b = 0, first = 0; b < used_; ++b, first += ShadingBatch::kCapacity) {
     ShadingBatch::Channel& state = batches_[b].lit.light[light].state;
     const auto size = static_cast<std::size_t>(batches_[b].size);
@@ -66,8 +66,8 @@ void Wave::find_asking(std::size_t light, RenderStats& stats) {
       shadowed += state[i] == LightTerms::kSelfShadowed;
     }
     std::fill(asks + size, asks + ShadingBatch::kCapacity, 0);
-    stats.rays.shadow += asking;
-    stats.self_shadowed += shadowed;
+    stats_->rays.shadow += asking;
+    stats_->self_shadowed += shadowed;
     for (std::size_t i = 0; i < size && asking > 0 && !enclosing_.empty(); ++i)
       if (asks[i] != 0 && enclosures_.hide(enclosing_[first + i], light)) {
         asks[i] = 0;
@@ -98,7 +98,8 @@ void Wave::add_lights_of(HitBatch& batch) const {
 }
 
 // color = c1 (ka Ia + sum b_i T_i), shadow = c1 sum (1 - b_i) T_i, and the unshadowed parts.
-void Wave::sum_up(Level& level, bool eye) {
+void Wave::sum_up(Level& level) {
+  const bool eye = level.is_eye();
   if (eye && want_t_)
     for (std::size_t i = 0; i < level.hits.size(); ++i) t_[i] = level.hits[i].found() ? level.hits[i].t : 0.0;
   if (eye && want_parts_)  // the background is booked as ambient light

@@ -15,16 +15,16 @@ bool is_entering(const Scene& scene, const Ray& ray, const Hit& hit, const glm::
 }
 
 // Batch by batch: who sends rays, where they go, in lanes, and the rays.
-void Wave::send_secondary(Level& level, Level& next, RenderStats& stats) {
+void Wave::send_secondary(Level& level, Level& next) {
   for (std::size_t b = 0; b < used_; ++b) {
-    find_senders(level, batches_[b], stats);
+    find_senders(level, batches_[b]);
     kernels_for(isa_).directions(optics_);
-    for (std::size_t k = 0; k < optics_.size; ++k) send_mirrored(level, batches_[b], k, next, stats);
-    for (std::size_t k = 0; k < optics_.size; ++k) send_transmitted(level, batches_[b], k, next, stats);
+    for (std::size_t k = 0; k < optics_.size; ++k) send_mirrored(level, batches_[b], k, next);
+    for (std::size_t k = 0; k < optics_.size; ++k) send_transmitted(level, batches_[b], k, next);
   }
 }
 
-void Wave::find_senders(Level& level, const HitBatch& batch, RenderStats& stats) {
+void Wave::find_senders(Level& level, const HitBatch& batch) {
   optics_.size = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.size); ++i) {
     const Shares& shares = shares_[batch.material[i]];
@@ -45,8 +45,8 @@ void Wave::find_senders(Level& level, const HitBatch& batch, RenderStats& stats)
     optics_.eta[k] = OpticsBatch::kNoRefraction;
     const Hit& hit = level.hits[number];
     sender.solid = scene_.objects[scene_.primitive_object[hit.primitive]].solid;
-    sender.lone = level.rays.empty() ? Lone::unknown : static_cast<Lone>(level.alone[number]);
-    if (level.rays.empty() && sender.solid && !prepared_.solids.empty())  // EyePackets look for less
+    sender.lone = level.is_eye() ? Lone::unknown : level.lone[number];
+    if (level.is_eye() && sender.solid && !prepared_.solids.empty())  // EyePackets look for less
       sender.lone = lone_hit(prepared_, ray, hit, isa_, &clearings_);
     if (batch.kind == ObjectKind::sphere)
       sender.entering = batch.entering[i] != 0;
@@ -54,14 +54,13 @@ void Wave::find_senders(Level& level, const HitBatch& batch, RenderStats& stats)
       sender.entering = sender.lone == Lone::unknown ? is_entering(scene_, ray, hit, get(batch.facing, i))
                                                      : sender.lone == Lone::entering;
     if (c3 == 0 || !sender.solid) continue;
-    find_behind(level, batch, ray, sender, stats.visibility);
+    find_behind(level, batch, ray, sender);
     optics_.eta[k] = relative_ior(scene_, media_[media_of(level, number)], media_[sender.behind]);
   }
 }
 
 // The media behind a solid's surface.
-void Wave::find_behind(const Level& level, const HitBatch& batch, const Ray& ray, Sender& sender,
-                       VisibilityCounts& counts) {
+void Wave::find_behind(const Level& level, const HitBatch& batch, const Ray& ray, Sender& sender) {
   const Hit& hit = level.hits[batch.ray[sender.entry]];
   const std::uint32_t object = scene_.primitive_object[hit.primitive];
   const MediaSets::Number media = media_of(level, batch.ray[sender.entry]);
@@ -75,19 +74,19 @@ void Wave::find_behind(const Level& level, const HitBatch& batch, const Ray& ray
   surface.clearance = batch.clearance[sender.entry];
   surface.together = together_depth(ray, hit, surface);
   surface.entering = sender.entering;
-  sender.behind = media_.number_of(media_behind(prepared_, ray, hit, surface, media_[media], counts));
+  sender.behind =
+      media_.number_of(media_behind(prepared_, ray, hit, surface, media_[media], stats_->visibility));
 }
 
 // A ray to be filled in, or nothing where it is not sent.
-WaveRay* Wave::send(Level& level, std::uint32_t parent, const Share& share, RayKind kind, Level& next,
-                    RenderStats& stats) {
+WaveRay* Wave::send(Level& level, std::uint32_t parent, const Share& share, RayKind kind, Level& next) {
   if (share.largest == 0) return nullptr;
   const double weight = weight_of(level, parent) * share.largest;
   if (!is_sent(scene_, level.depth, weight)) {
     level.cut[parent] += weight;
     return nullptr;
   }
-  ++(is_mirrored(kind) ? stats.rays.reflection : stats.rays.refraction);
+  ++(is_mirrored(kind) ? stats_->rays.reflection : stats_->rays.refraction);
   WaveRay& ray = next.waiting.emplace_back();
   ray.weight = weight;
   ray.c = share.c;
@@ -98,14 +97,13 @@ WaveRay* Wave::send(Level& level, std::uint32_t parent, const Share& share, RayK
 }
 
 // One ray carries both weights where reflection is total.
-void Wave::send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Level& next,
-                         RenderStats& stats) {
+void Wave::send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Level& next) {
   const Sender& sender = senders_[k];
   const std::size_t i = sender.entry;
   const Shares& shares = shares_[batch.material[i]];
   const bool total = is_total(k);
   WaveRay* ray = send(level, batch.ray[i], total ? shares.total : shares.mirrored,
-                      total ? RayKind::internally_reflected : RayKind::mirrored, next, stats);
+                      total ? RayKind::internally_reflected : RayKind::mirrored, next);
   if (!ray) return;
   ray->ray = {get(batch.from, i), get(optics_.mirrored, k)};
   if (batch.kind == ObjectKind::sphere && !sender.entering) ray->own = level.hits[batch.ray[i]].primitive;
@@ -113,14 +111,13 @@ void Wave::send_mirrored(Level& level, const HitBatch& batch, std::size_t k, Lev
   if (sender.lone == Lone::unknown && !in_the_open) ray->media = media_.doubted(ray->media);
 }
 
-void Wave::send_transmitted(Level& level, const HitBatch& batch, std::size_t k, Level& next,
-                            RenderStats& stats) {
+void Wave::send_transmitted(Level& level, const HitBatch& batch, std::size_t k, Level& next) {
   if (is_total(k)) return;
   const Sender& sender = senders_[k];
   const std::size_t i = sender.entry;
   const bool refracts = optics_.eta[k] != OpticsBatch::kNoRefraction;
   WaveRay* ray = send(level, batch.ray[i], shares_[batch.material[i]].transmitted,
-                      refracts ? RayKind::refracted : RayKind::straight, next, stats);
+                      refracts ? RayKind::refracted : RayKind::straight, next);
   if (!ray) return;
   if (refracts) {
     ray->ray = {get(batch.from, i), get(optics_.refracted, k)};

@@ -13,7 +13,8 @@ HitBatch& Wave::next_batch() {
   return batches_[used_++];
 }
 
-void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
+void Wave::find_surfaces(Level& level) {
+  const bool eye = level.is_eye();
   used_ = 0;
   for (SurfaceBatch& batch : surfaces_) {
     batch.own_rays = !eye;
@@ -21,7 +22,7 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     batch.has_t = !eye || primary_;
     batch.want_t = eye && !primary_ && (want_t_ || batch.want_leaving);
   }
-  if (eye) return find_seen_surfaces(level, stats);
+  if (eye) return find_seen_surfaces(level);
   PrimitiveFinder find(scene_);
   for (std::size_t i = 0; i < level.hits.size(); ++i) {
     const Hit& hit = level.hits[i];
@@ -33,13 +34,13 @@ void Wave::find_surfaces(Level& level, bool eye, RenderStats& stats) {
     put(batch.origin, entry, level.rays[i].ray.origin);
     put(batch.direction, entry, level.rays[i].ray.direction);
     batch.add(hit.primitive);
-    if (batch.room() == 0) flush(level, batch, eye, stats);
+    if (batch.room() == 0) flush(level, batch);
   }
-  for (SurfaceBatch& batch : surfaces_) flush(level, batch, eye, stats);
+  for (SurfaceBatch& batch : surfaces_) flush(level, batch);
 }
 
 // Stretch by stretch of what is of one object.
-void Wave::find_seen_surfaces(Level& level, RenderStats& stats) {
+void Wave::find_seen_surfaces(Level& level) {
   const Object* object = nullptr;  // most often that of the stretch before
   for (std::size_t k = 0; k < level.hits.size();) {
     const std::uint32_t primitive = level.hits[k].primitive;
@@ -51,9 +52,9 @@ void Wave::find_seen_surfaces(Level& level, RenderStats& stats) {
       object = &scene_.objects[scene_.primitive_object[primitive]];
     k = add_seen(level, k, *object);
     SurfaceBatch& batch = surfaces_[static_cast<std::size_t>(object->kind)];
-    if (batch.room() == 0) flush(level, batch, true, stats);
+    if (batch.room() == 0) flush(level, batch);
   }
-  for (SurfaceBatch& batch : surfaces_) flush(level, batch, true, stats);
+  for (SurfaceBatch& batch : surfaces_) flush(level, batch);
 }
 
 // Hits of the object in a row, from the first on, as far as there is room. Returns the next one.
@@ -85,9 +86,10 @@ std::size_t Wave::add_seen(const Level& level, std::size_t first, const Object& 
   return first + count;
 }
 
-void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& stats) {
+void Wave::flush(Level& level, SurfaceBatch& surfaces) {
   if (surfaces.size == 0) return;
-  surfaces_at(isa_, scene_, camera_, prepared_.tables, surfaces, shading_, stats.visibility);
+  const bool parts = level.is_eye() && want_parts_;
+  surfaces_at(isa_, scene_, camera_, prepared_.tables, surfaces, shading_, stats_->visibility);
   HitBatch& batch = next_batch();
   const auto size = static_cast<std::size_t>(surfaces.size);
   if (surfaces.want_t)
@@ -96,50 +98,49 @@ void Wave::flush(Level& level, SurfaceBatch& surfaces, bool eye, RenderStats& st
   batch.kind = surfaces.kind;
   std::copy_n(surfaces.sample.begin(), size, batch.ray.begin());
   std::copy_n(shading_.material.begin(), size, batch.material.begin());
-  if (eye && want_normal_)
+  if (level.is_eye() && want_normal_)
     for (std::size_t i = 0; i < size; ++i) normal_[batch.ray[i]] = get(shading_.normal, i);
 
   if (shadows_) {
-    light_terms(isa_, prepared_.tables, shading_, eye && want_parts_, batch.lit);
+    light_terms(isa_, prepared_.tables, shading_, parts, batch.lit);
   } else {
-    shade(isa_, prepared_.tables, shading_, eye && want_parts_);
+    shade(isa_, prepared_.tables, shading_, parts);
     const bool neighbours = batch.ray[size - 1] - batch.ray[0] == size - 1;  // ray numbers ascend
     const auto put = [&](Colors& to, const ShadingBatch::Rgb& from) {
       if (neighbours) return interleave(from, 0, size, &to[batch.ray[0]]);
       for (std::size_t i = 0; i < size; ++i) to[batch.ray[i]] = get(from, i);
     };
     put(level.color, shading_.unshadowed);
-    if (eye && want_parts_) {
+    if (parts) {
       put(parts_[0], shading_.ambient_layer);
       put(parts_[1], shading_.diffuse_layer);
       put(parts_[2], shading_.specular_layer);
     }
   }
-  if (surfaces.want_leaving) find_leaving_points(level, surfaces, batch, stats);
+  if (surfaces.want_leaving) find_leaving_points(level, surfaces, batch);
   surfaces.clear();
 }
 
 // Whether there is nothing to search for near the hit.
 bool Wave::stands_alone(Level& level, std::size_t ray, ObjectKind kind) {
-  if (level.rays.empty())
-    return !level.alone.empty() && level.alone[ray] && level.hits[ray].t < farthest_alone_;
-  if (level.alone[ray] || kind == ObjectKind::plane) return level.alone[ray];
+  if (level.is_eye()) return !level.alone.empty() && level.alone[ray] && level.hits[ray].t < farthest_alone_;
+  Lone& lone = level.lone[ray];
+  if (lone != Lone::unknown || kind == ObjectKind::plane) return lone != Lone::unknown;
   const Hit& hit = level.hits[ray];
   const bool clear = is_clear(prepared_, level.rays[ray].ray, hit, clearings_, isa_);
   // On a solid the ray grazes, or lone_hit() would have said so: no reason to call it lone.
-  level.alone[ray] = clear && !scene_.objects[scene_.primitive_object[hit.primitive]].solid;
+  if (clear && !scene_.objects[scene_.primitive_object[hit.primitive]].solid) lone = Lone::clear;
   return clear;
 }
 
 // Whether the ray comes from outside. Of secondary rays lone_hit() told it where it could.
 bool Wave::enters_ball(const Level& level, std::size_t ray, const glm::dvec3& facing) const {
-  const Lone lone = level.rays.empty() ? Lone::unknown : static_cast<Lone>(level.alone[ray]);
+  const Lone lone = level.is_eye() ? Lone::unknown : level.lone[ray];
   if (lone != Lone::unknown) return lone == Lone::entering;
   return is_entering(scene_, ray_of(level, ray), level.hits[ray], facing);
 }
 
-void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch,
-                               RenderStats& stats) {
+void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBatch& batch) {
   const auto size = static_cast<std::size_t>(batch.size);
   for (std::size_t axis = 0; axis < 3; ++axis)  // leaving_point() of nothing near
     for (std::size_t i = 0; i < size; ++i)
@@ -161,7 +162,7 @@ void Wave::find_leaving_points(Level& level, const SurfaceBatch& surfaces, HitBa
     const Hit& hit = level.hits[batch.ray[i]];
     const Ray ray = ray_of(level, batch.ray[i]);
     place.together = together_depth(ray, hit, place);
-    const glm::dvec3 from = leaving_point(prepared_, ray, hit, place, stats.visibility, isa_);
+    const glm::dvec3 from = leaving_point(prepared_, ray, hit, place, stats_->visibility, isa_);
     batch.plain[i] = from == get(batch.from, i);
     put(batch.from, i, from);
   }
