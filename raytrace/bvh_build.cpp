@@ -4,7 +4,7 @@
 #include "common/math/norms.h"
 #include "common/parallel.h"
 #include "raytrace/bvh.h"
-#include "raytrace/bvh_reference.h"
+#include "raytrace/bvh_items.h"
 
 namespace sidelight::raytrace {
 namespace {
@@ -17,9 +17,8 @@ struct Split {
 
 class Builder {
  public:
-  // Reorders the references; `spare` has room for as many. Lengths times `unit` have squares.
-  Builder(Reference* references, Reference* spare, float unit)
-      : references_(references), spare_(spare), unit_(unit) {}
+  // Reorders the items; `spare` has room for as many. Lengths times `unit` have squares.
+  Builder(BoxedItem* boxed, BoxedItem* spare, float unit) : items_(boxed), spare_(spare), unit_(unit) {}
 
   // Nodes of the subtree over `range`, its root first, into `nodes`; subtrees of at most `task_size` items that begin
   // below it are left out and listed in `tasks`, where one is given.
@@ -109,7 +108,7 @@ class Builder {
     std::uint32_t sampled = 0;
     for (std::uint32_t k = range.first; k < range.first + range.count; k += step) {
       ++sampled;
-      const FloatBox box = references_[k].box();
+      const FloatBox box = items_[k].box();
       const auto bin = binning.of(box);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto b = static_cast<std::size_t>(bin[axis]);
@@ -153,30 +152,30 @@ class Builder {
             part(range.first + count, range.count - count, range.depth)};
   }
 
-  // Without a branch that nobody could predict: every reference is written to both sides, and stays on its own. The
+  // Without a branch that nobody could predict: every item is written to both sides, and stays on its own. The
   // number of those on the left.
   std::uint32_t partition(const Range& range, const Binning& binning, const Split& split) {
     const auto axis = static_cast<std::size_t>(split.axis);
     const float from = binning.from[axis], per_width = binning.per_width[axis];
-    Reference *left = references_ + range.first, *right = spare_ + range.first;
+    BoxedItem *left = items_ + range.first, *right = spare_ + range.first;
     for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
-      const Reference reference = references_[k];
-      const bool goes_left = Binning::of(references_[k].center(axis), from, per_width) < split.bin;
-      *left = reference;
-      *right = reference;
+      const BoxedItem item = items_[k];
+      const bool goes_left = Binning::of(items_[k].center(axis), from, per_width) < split.bin;
+      *left = item;
+      *right = item;
       left += goes_left;
       right += !goes_left;
     }
     std::copy(spare_ + range.first, right, left);
-    return static_cast<std::uint32_t>(left - references_) - range.first;
+    return static_cast<std::uint32_t>(left - items_) - range.first;
   }
 
   std::uint32_t halve(const Range& range) {
-    Reference* begin = references_ + range.first;
+    BoxedItem* begin = items_ + range.first;
     const Quad width = range.boxes.high - range.boxes.low;
     const auto axis = static_cast<std::size_t>(greatest_axis<float>(width[0], width[1], width[2]));
     std::nth_element(begin, begin + range.count / 2, begin + range.count,
-                     [&](const Reference& a, const Reference& b) {
+                     [&](const BoxedItem& a, const BoxedItem& b) {
                        const float center_a = a.center(axis), center_b = b.center(axis);
                        return center_a < center_b || (center_a == center_b && a.item() < b.item());
                      });
@@ -186,14 +185,14 @@ class Builder {
   Range part(std::uint32_t first, std::uint32_t count, int depth) const {
     Range range{first, count, {}, {}, depth};
     for (std::uint32_t k = first; k < first + count; ++k) {
-      const FloatBox box = references_[k].box();
+      const FloatBox box = items_[k].box();
       range.boxes.grow(box);
       range.centers.grow(center_of(box));
     }
     return range;
   }
 
-  Reference *references_, *spare_;
+  BoxedItem *items_, *spare_;
   float unit_;
 };
 
@@ -225,15 +224,15 @@ void place(Bvh& bvh, std::span<const std::uint32_t> items, const BoxesOf& boxes_
 }
 
 // All items as one range, their boxes relative to `center`.
-Range refer(std::span<const std::uint32_t> items, const BoxesOf& boxes_of, const glm::dvec3& center,
-            int threads, Reference* references) {
+Range box_items(std::span<const std::uint32_t> items, const BoxesOf& boxes_of, const glm::dvec3& center,
+                int threads, BoxedItem* boxed) {
   std::vector<Range> of_block(blocks_of(items.size()));
   for_boxes(items, boxes_of, threads, [&](std::size_t block, std::size_t first, const KeptArray<Box>& boxes) {
     Range part;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const FloatBox box{round_down(difference(boxes[i].low, center)),
                          round_up(difference(boxes[i].high, center))};
-      references[first + i] = {items[first + i], box};
+      boxed[first + i] = {items[first + i], box};
       part.boxes.grow(box);
       part.centers.grow(center_of(box));
     }
@@ -274,14 +273,14 @@ Bvh build_bvh(std::span<const std::uint32_t> items, const BoxesOf& boxes_of, int
   Bvh bvh;
   if (items.empty()) return bvh;
   place(bvh, items, boxes_of, threads);
-  KeptArray<Reference> references(2 * items.size());
-  const Range all = refer(items, boxes_of, bvh.center, threads, references.data());
+  KeptArray<BoxedItem> boxed(2 * items.size());
+  const Range all = box_items(items, boxes_of, bvh.center, threads, boxed.data());
   const Quad extent = all.boxes.high - all.boxes.low;
   const float longest = std::max({extent[0], extent[1], extent[2]});
-  Builder builder(references.data(), references.data() + items.size(), longest > 0 ? 1 / longest : 1);
+  Builder builder(boxed.data(), boxed.data() + items.size(), longest > 0 ? 1 / longest : 1);
   build_nodes(builder, all, threads, bvh.nodes);
   bvh.items.resize(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) bvh.items[i] = references[i].item();
+  for (std::size_t i = 0; i < items.size(); ++i) bvh.items[i] = boxed[i].item();
   return bvh;
 }
 

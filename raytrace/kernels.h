@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The tracer's kernels, each written once over lanes (ray_kernel.h, packet_kernel.h) and instantiated for each instruction
-// set. Every set gives the same answers and counts; but a packet's counts are its own (packets.h).
+// set. Every set gives the same answers and, but for those of packets, the same counts.
 #pragma once
 
 #include <span>

@@ -24,7 +24,7 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
           ((lane_abs(x) * static_cast<double>(p.extent_u) + lane_abs(y) * static_cast<double>(p.extent_v)) +
            lane_abs(c)) +
       p.place_error * (lane_abs(x) + lane_abs(y)) + 0x1p-46 * p.length * lane_abs(per_h);
-  LeafSetup s{};
+  TriangleSetup s{};
   for (std::size_t k = 0; k < 3; ++k) {
     s.x[k][0] = s.y[k][0] = 0;
     s.c[k][0] = 1;
@@ -37,7 +37,7 @@ void test_plane(const Prepared& prepared, RayPacket& p, std::uint32_t primitive,
   s.low_u.fill(kInfinity);
   s.low_u[0] = s.low_v[0] = -kFarPlace;
   s.high_u[0] = s.high_v[0] = kFarPlace;
-  test_set_up<F>(p, s, all_groups(p), {&primitive}, counts);
+  test_triangles<F>(p, s, all_groups(p), {&primitive}, counts);
 }
 
 template <class D>

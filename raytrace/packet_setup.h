@@ -53,7 +53,7 @@ inline PacketAxes packet_axes(const RayPacket& p) {
 constexpr float kFarPlace = 1e30f;  // farther than any u and v
 
 // Of the triangles of some leaves, each leaf's from a multiple of kMaxLeaf on.
-struct LeafSetup {
+struct TriangleSetup {
   alignas(64) std::array<PerItem, 3> x, y, c;  // E_k = x u + y v + c up to a positive factor, up to 1
   alignas(64) PerItem doubt;  // an |E_k| not above it may have either sign; 2 where the side is not sure
   alignas(64) PerItem wx, wy, wc, w_error;  // 1/t; w_error is infinite where the side is not sure
@@ -86,7 +86,7 @@ Vec3<D> extents(const RayPacket& p) {
 // 2^-22 of it, for the quotient and s, and by what the error of a place makes, and of a ray.
 template <class D>
 bool set_up_rectangle(const RayPacket& p, const PacketAxes& axes, const std::array<Vec3<D>, 3>& q, const D& l,
-                      const Mask<D>& asked, std::size_t lane, LeafSetup& out) {
+                      const Mask<D>& asked, std::size_t lane, TriangleSetup& out) {
   const D low_s = lane_min<D>(lane_min<D>(q[0].z, q[1].z), q[2].z),
           high_s = lane_max<D>(lane_max<D>(q[0].z, q[1].z), q[2].z);
   const D clear = mul_add(D(axes.ahead_l), l, D(axes.ahead_0));
@@ -137,7 +137,7 @@ struct PlaneSetup {
 // 1/t over (u, v).
 template <class D>
 PlaneSetup<D> set_up_depth(const RayPacket& p, const PacketAxes& axes, const Vec3<D>& q0, const Vec3<D>& n,
-                           const D& l, const D& m, std::size_t lane, LeafSetup& out) {
+                           const D& l, const D& m, std::size_t lane, TriangleSetup& out) {
   const D h = fused_dot(q0, n), size_h = lane_abs<D>(h), off = D(axes.per_det) * (l * m);
   const D size_n = most_of(n, wide<D>(axes.size));
   const Mask<D> sure = size_h > mul_add(D(0x1p-27), l, D(0x1p-25 * (axes.kappa * axes.kappa)) * m) * off &&
@@ -159,7 +159,7 @@ PlaneSetup<D> set_up_depth(const RayPacket& p, const PacketAxes& axes, const Vec
 // The edge functions, turned by the side.
 template <class D>
 void set_up_edges(const RayPacket& p, const PacketAxes& axes, const std::array<Vec3<D>, 3>& q, const D& l,
-                  const PlaneSetup<D>& plane, std::size_t lane, LeafSetup& out) {
+                  const PlaneSetup<D>& plane, std::size_t lane, TriangleSetup& out) {
   const D turn = select<D>(plane.h < D(0), D(-1), D(1)), reach_l = l + D(p.distance);
   const D ray = D(0x1p-46 * p.length * axes.per_det * (1 + axes.kappa)) * (reach_l * reach_l);
   const D near = D(p.near_error) * mul_add(D(p.reach), plane.most_w, D(p.length));
@@ -181,7 +181,7 @@ void set_up_edges(const RayPacket& p, const PacketAxes& axes, const std::array<V
 // Triangles from `lane` on, of the `count` of a leaf, to `at`. Whether there is anything to ask of them.
 template <class D>
 bool set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
-                      std::size_t lane, std::size_t at, LeafSetup& out) {
+                      std::size_t lane, std::size_t at, TriangleSetup& out) {
   const auto corner = [&](std::uint32_t k) { return load_corner<D>(leaf + lane, count, k); };
   const auto in_axes = [&](const Vec3<D>& x) {
     const auto along = [&](const Vec3<double>& row) { return fused_dot(wide<D>(row), x); };
@@ -201,7 +201,7 @@ bool set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* 
 // A leaf's, to `at`.
 template <class D>
 bool set_up_leaf(const RayPacket& p, const PacketAxes& axes, const double* leaf, std::uint32_t count,
-                 std::size_t at, LeafSetup& out) {
+                 std::size_t at, TriangleSetup& out) {
   bool any_asked = false;
   for (std::size_t lane = 0; lane < Bvh::kMaxLeaf; lane += kLanes<D>)
     if (lane < count)

@@ -12,7 +12,8 @@ namespace sidelight::raytrace {
 // Adds the triangles that some ray of group g may meet before what it keeps: their rectangle holds some of the group's, and
 // there each edge function is >= 0 somewhere, and the depth near enough. Returns how many.
 template <class F>
-std::size_t add_triangles_met(const RayPacket& p, const LeafSetup& s, std::size_t g, std::int32_t* pairs) {
+std::size_t add_triangles_met(const RayPacket& p, const TriangleSetup& s, std::size_t g,
+                              std::int32_t* pairs) {
   const F low_u(p.group_u[0][g]), high_u(p.group_u[1][g]), low_v(p.group_v[0][g]), high_v(p.group_v[1][g]);
   std::size_t size = 0;
   for (std::size_t i = 0; i < s.doubt.size(); i += kLanes<F>) {
@@ -34,7 +35,7 @@ std::size_t add_triangles_met(const RayPacket& p, const LeafSetup& s, std::size_
 
 // The edge function that is least, at each of these rays.
 template <class F>
-F least_edge(const RayPacket& p, const LeafSetup& s, std::size_t i, std::size_t first) {
+F least_edge(const RayPacket& p, const TriangleSetup& s, std::size_t i, std::size_t first) {
   const F u = load<F>(&p.u[first]), v = load<F>(&p.v[first]);
   const auto at = [&](std::size_t k) {
     return mul_add(F(s.x[k][i]), u, mul_add(F(s.y[k][i]), v, F(s.c[k][i])));
@@ -49,8 +50,8 @@ using LeafPrimitives = std::array<const std::uint32_t*, kLeavesTogether>;
 // met in which; which rays of them; and what these keep. Step by step, so that hardly a branch hangs on a result that has
 // just been asked for.
 template <class F>
-void test_set_up(RayPacket& p, const LeafSetup& s, Groups groups, const LeafPrimitives& primitives,
-                 VisibilityCounts& counts) {
+void test_triangles(RayPacket& p, const TriangleSetup& s, Groups groups, const LeafPrimitives& primitives,
+                    VisibilityCounts& counts) {
   constexpr std::size_t kGroup = RayPacket::kGroup;
   Pairs near, met;
   std::size_t near_size = 0, met_size = 0;
@@ -83,7 +84,7 @@ void test_set_up(RayPacket& p, const LeafSetup& s, Groups groups, const LeafPrim
 template <class F, class B, class D>
 void test_leaves(const Prepared& prepared, const PacketAxes& axes, const TriangleLeaves& leaves,
                  std::span<const PacketEntry> entries, RayPacket& p, VisibilityCounts& counts) {
-  LeafSetup setup;
+  TriangleSetup setup;
   LeafPrimitives primitives{};
   Groups groups = 0;
   for (std::size_t k = 0; k < kLeavesTogether; ++k) {
@@ -97,7 +98,7 @@ void test_leaves(const Prepared& prepared, const PacketAxes& axes, const Triangl
     if (set_up_leaf<D>(p, axes, leaves.leaf(entry.first), entry.count, at, setup)) groups |= entry.groups;
     hide_what_casts_none(prepared, p, primitives[k], entry.count, &setup.low_u[at], kInfinity);
   }
-  test_set_up<F>(p, setup, groups, primitives, counts);
+  test_triangles<F>(p, setup, groups, primitives, counts);
 }
 
 }  // namespace sidelight::raytrace

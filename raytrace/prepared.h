@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tracer keeps of a scene between frames, and the questions it asks of it.
+// What the tracer keeps of a scene between frames, and the questions it asks of it (prepared.cpp).
 #pragma once
 
 #include <algorithm>
@@ -54,8 +54,8 @@ class Prepared {
 
 bool casts_shadow(const Scene& scene, std::uint32_t primitive);
 
-// Of a light along its shadow rays (blocker() below).
-[[gnu::always_inline]] inline double depth_of(const glm::dvec3* light) {
+// Where a light is on its shadow rays (blocker() below); nullptr: a directional one.
+[[gnu::always_inline]] inline double light_depth(const glm::dvec3* light) {
   return light ? 1 : std::numeric_limits<double>::infinity();
 }
 

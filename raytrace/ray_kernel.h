@@ -193,7 +193,7 @@ template <class F, class D>
 [[gnu::flatten]] Hit blocker_in_lanes(const Prepared& prepared, const Ray& ray, const glm::dvec3* light,
                                       const Hit& start, VisibilityCounts& counts) {
   Hit found;
-  const double limit = depth_of(light);
+  const double limit = light_depth(light);
   ask_all<F, D>(prepared, ray, start.t, limit, counts, [&](const auto& candidate, double current) {
     found = blocking_hit(prepared, candidate, ray, light, start, counts);
     return found.found() ? -1.0 : current;
@@ -204,7 +204,7 @@ template <class F, class D>
 template <class F, class D>
 [[gnu::flatten]] void blocked_of_in_lanes(const Prepared& prepared, std::span<ShadowQuestion> questions,
                                           const glm::dvec3* light, VisibilityCounts& counts) {
-  const double limit = depth_of(light);
+  const double limit = light_depth(light);
   for (std::size_t at = 0; at < questions.size(); at += Bundle::kCapacity) {
     const auto some = questions.subspan(at, std::min(Bundle::kCapacity, questions.size() - at));
     BundleRays rays;

@@ -18,7 +18,7 @@ class ShadowQueries {
  public:
   std::vector<double> x, y, z;  // leaving_point()
   std::vector<std::int32_t>
-      own;  // the primitive that asks, where it is flat, or a sphere that is left outward; else -1
+      own;  // the primitive that asks if flat, or a sphere that is left outward; else -1
   std::vector<std::int32_t> asks;  // not 0 where the light is to be asked
   bool seen_by_eye = true;         // else by secondary rays: then neighbours lie farther apart
 

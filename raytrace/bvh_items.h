@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the hierarchy is built from: boxes in lanes of four, references to items, ranges of them and their bins. For
+// What the hierarchy is built from: boxes in lanes of four, items with theirs, ranges of them and their bins. For
 // bvh_build.cpp and its test only.
 #pragma once
 
@@ -34,10 +34,10 @@ struct FloatBox {
 
 // An item on its way to its leaf, with its box: moved, not pointed to, since each level of the tree reads all of them.
 // It is in whole vectors, or it would be copied number by number and waited for where it is read.
-class Reference {
+class BoxedItem {
  public:
-  Reference() = default;
-  [[gnu::always_inline]] Reference(std::uint32_t item, const FloatBox& box) : low_(box.low) {
+  BoxedItem() = default;
+  [[gnu::always_inline]] BoxedItem(std::uint32_t item, const FloatBox& box) : low_(box.low) {
     const auto fourth = std::bit_cast<Bits>(_mm_slli_si128(_mm_cvtsi32_si128(static_cast<int>(item)), 12));
     high_and_item_ = from_bits<Quad>((to_bits(box.high) & load<Bits>(kFirstThree.data())) | fourth);
   }
@@ -55,7 +55,7 @@ class Reference {
 
   Quad low_, high_and_item_;
 };
-static_assert(sizeof(Reference) == 32);
+static_assert(sizeof(BoxedItem) == 32);
 
 // Twice the centre of a box, as both ends of an interval.
 [[gnu::always_inline]] inline FloatBox center_of(const FloatBox& box) {

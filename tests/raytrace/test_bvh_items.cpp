@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "raytrace/bvh_reference.h"
+#include "raytrace/bvh_items.h"
 #include "tests/support/random.h"
 
 using namespace sidelight;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The tracer's questions about a scene, answered through the hierarchies. Which surface is met is decided by
+// The questions of prepared.h, answered through the hierarchies. Which surface is met is decided by
 // common/model/visibility.h alone; here only candidates are found.
+#include "raytrace/prepared.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -48,7 +50,7 @@ Hit nearest_in_float(const Prepared& prepared, const Ray& ray, const Hit& after,
 Hit blocker_in_float(const Prepared& prepared, const Ray& ray, const glm::dvec3* light, const Hit& start,
                      VisibilityCounts& counts, Isa isa) {
   Hit found;
-  candidates(prepared, ray, depth_of(light), counts, isa, [&](std::uint32_t primitive, double current) {
+  candidates(prepared, ray, light_depth(light), counts, isa, [&](std::uint32_t primitive, double current) {
     found = blocking_hit(prepared, primitive, ray, light, counts,
                          [&] { return intersect_in_float(prepared.scene, primitive, ray, start, counts); });
     return found.found() ? -1.0 : current;

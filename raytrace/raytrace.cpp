@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The ray tracer: pixel order. For each sample its eye ray, and what the recursion brings back along it: tile by tile in
 // waves, or, for what those do not do, sample by sample.
+#include "raytrace/raytrace.h"
+
 #include <algorithm>
 #include <vector>
 
