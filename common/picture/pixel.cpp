@@ -35,13 +35,6 @@ void PixelWriter::write(int x, int y) {
   const auto first = static_cast<std::ptrdiff_t>(i) * frame_.n * frame_.n;
   std::copy(kept_primitive_.begin(), kept_primitive_.end(), frame_.sample_primitive.begin() + first);
   std::copy(kept_t_.begin(), kept_t_.end(), frame_.sample_depth.begin() + first);
-
-  color_ = {};
-  layer_ = {};
-  tests_ = 0;
-  kept_primitive_.clear();
-  kept_t_.clear();
-  count_ = 0;
 }
 
 }  // namespace sidelight

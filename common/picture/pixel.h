@@ -30,7 +30,7 @@ class PixelWriter {
   PixelWriter(Frame& frame, double depth_scale) : frame_(frame), depth_scale_(depth_scale) {}
 
   void add(const Sample& sample);
-  // Writes the pixel at picture coordinates (x, y) and starts the next one. Needs n*n samples.
+  // Writes the pixel at picture coordinates (x, y). Needs n*n samples.
   void write(int x, int y);
 
  private:
@@ -49,8 +49,8 @@ class PixelWriter {
 template <class SampleAt>
 void write_row(Frame& frame, double depth_scale, int y, const SampleAt& sample_at) {
   const int n = frame.n;
-  PixelWriter pixel(frame, depth_scale);
   for (int x = frame.window.x0; x < frame.window.x1; ++x) {
+    PixelWriter pixel(frame, depth_scale);
     for (int Y = n * y; Y < n * (y + 1); ++Y)
       for (int X = n * x; X < n * (x + 1); ++X) pixel.add(sample_at(X, Y));
     pixel.write(x, y);
