@@ -35,7 +35,7 @@ struct PacketAxes {
   double ahead_0, ahead_l;
 };
 
-inline PacketAxes packet_axes(const RayPacket& p) {
+[[gnu::always_inline]] inline PacketAxes packet_axes(const RayPacket& p) {
   const Vec3<double> U = wide<double>(p.U), V = wide<double>(p.V), W = wide<double>(p.W), UV = cross(U, V);
   const double det = dot(W, UV), per_det = 1 / det, size_det = lane_abs(per_det);
   PacketAxes axes;

@@ -40,7 +40,8 @@ inline PacketPlane packet_plane(const RayPacket& p, const Bvh& bvh, const Vec3<d
   return out;
 }
 
-inline PacketBounds packet_bounds(const RayPacket& p, const PacketAxes& axes, const Bvh& bvh) {
+[[gnu::always_inline]] inline PacketBounds packet_bounds(const RayPacket& p, const PacketAxes& axes,
+                                                         const Bvh& bvh) {
   PacketBounds out;
   for (std::size_t k = 0; k < 3; ++k) {
     out.least[k] = packet_plane(p, bvh, axes.row[k], false);
@@ -69,7 +70,7 @@ struct BoxesSeen {
 };
 
 template <class B>
-BoxesSeen see_boxes(const BvhNode& node, const PacketBounds& bounds) {
+[[gnu::always_inline]] inline BoxesSeen see_boxes(const BvhNode& node, const PacketBounds& bounds) {
   BoxesSeen seen;
   for (std::size_t lane = 0; lane < BvhNode::kWidth; lane += kLanes<B>) {
     const auto at = [&](const PacketPlane& plane) {

@@ -34,7 +34,8 @@ struct Candidate {
     return all_at(0, origin.x) || all_at(1, origin.y) || all_at(2, origin.z);
   }
 
-  Hit hit(const Scene& scene, const Ray& ray, const Hit& after, VisibilityCounts& counts) const {
+  [[gnu::always_inline]] Hit hit(const Scene& scene, const Ray& ray, const Hit& after,
+                                 VisibilityCounts& counts) const {
     if constexpr (kRows == TriangleLeaves::kRowCount) {
       const glm::dvec3 v0 = corner(0), v1 = corner(1), v2 = corner(2);
       const bool missed = !met && (starts_in_flat(ray.origin) || plane_behind(v0, v1, v2, ray));
@@ -174,8 +175,10 @@ template <int kRows>
 [[gnu::always_inline]] inline Hit blocking_hit(const Prepared& prepared, const Candidate<kRows>& candidate,
                                                const Ray& ray, const glm::dvec3* light, const Hit& start,
                                                VisibilityCounts& counts) {
-  return blocking_hit(prepared, candidate.primitive, ray, light, counts,
-                      [&] { return candidate.hit(prepared.scene, ray, start, counts); });
+  const auto hit = [&]() __attribute__((always_inline)) {
+    return candidate.hit(prepared.scene, ray, start, counts);
+  };
+  return blocking_hit(prepared, candidate.primitive, ray, light, counts, hit);
 }
 
 // Whether there is one. Of a sphere that is surely met before the light no root is needed.
