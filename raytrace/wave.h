@@ -65,9 +65,10 @@ struct Level {
   std::vector<WaveRay> rays;     // none at the eye's level: those are the camera's
   std::vector<WaveRay> waiting;  // rays of this depth whose turn comes later
   std::vector<Hit> hits;
-  std::vector<std::uint8_t>
-      alone;               // of the eye's level: what EyePackets say of that, which is less than lone
-  std::vector<Lone> lone;  // of the others, of hits on solids by lone_hit(), else by is_clear()
+  // Of the eye's level: nothing else stands near the hit, as far as EyePackets can tell; that is less than lone.
+  std::vector<std::uint8_t> alone;
+  // Of the others: what lone_hit() says of hits on solids, is_clear() of the rest.
+  std::vector<Lone> lone;
   std::vector<glm::vec3> color, mirrored, refracted;  // the last two where there are secondary rays
   std::vector<double> cut;                            // likewise: weights not sent there, and below
 
