@@ -53,6 +53,7 @@ class TreeRecorder {
   void not_sent(const Path& path, const glm::dvec3& c) {
     RayRecord unsent = record(path);
     unsent.sent = false;
+    unsent.depth = open_.back().depth + 1;  // it would have been
     unsent.coefficient = glm::vec3(c);
     open_.back().children.push_back(std::move(unsent));
   }

@@ -49,7 +49,7 @@ void check_rays(const RayRecord& ray) {
     const glm::vec3& c = child.coefficient;
     const double weight = ray.path_weight * static_cast<double>(std::max({c.x, c.y, c.z}));
     CHECK(child.path_weight == doctest::Approx(weight).epsilon(1e-6));
-    CHECK((!child.sent || child.depth == ray.depth + 1));
+    CHECK(child.depth == ray.depth + 1);
     check_rays(child);
   }
 }
