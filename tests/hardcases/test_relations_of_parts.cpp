@@ -11,8 +11,6 @@
 using namespace sidelight;
 using namespace sidelight::test;
 
-namespace {}  // namespace
-
 // ---- MET-3 ----
 
 TEST_CASE("MET-3: the order of lights, objects, triangles and vertices") {
