@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a sweep may cost: the reference image and the default sweep end where they would take too long, and say so.
+#include <doctest/doctest.h>
+
 #include <atomic>
 #include <cmath>
 #include <mutex>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures kept between runs: found again in every bit, never believed when damaged, and not needed.
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <cstdlib>
 

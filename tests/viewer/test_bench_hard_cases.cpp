@@ -2,6 +2,8 @@
 // The hard cases of a bench: exact settings pass them, and each fault on purpose fails the one that is made for it.
 #include "viewer/bench/hard_cases.h"
 
+#include <doctest/doctest.h>
+
 #include "tests/support/text.h"
 
 using namespace sidelight;
