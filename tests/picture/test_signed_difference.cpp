@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -55,4 +56,45 @@ TEST_CASE("signed difference: a picture of luminance, traced minus rastered") {
   const double green = double{kLuminance.y} * 0.25;  // exact: 0.5, 0.25 and their sum are powers of two
   CHECK(picture[1] == signed_difference_color(green));
   CHECK(picture[2] == signed_difference_color(-green));
+}
+
+TEST_CASE("signed difference: a histogram counts every pixel where the colours' scale has it") {
+  const double nan = std::nan("");
+  const std::vector<double> differences{0, 1e-9, -1e-9, 0.26, 0.26, -0.26, 0.99, 5, -7, nan, 0};
+  Pair pair = equal_pair(static_cast<int>(differences.size()), 1);
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    pair.rastered.color[i] = glm::vec3(0);
+    pair.traced.color[i] = glm::vec3(static_cast<float>(differences[i]));
+  }
+  const DifferenceHistogram histogram = difference_histogram(pair.rastered, pair.traced);
+  CHECK(histogram.equal == 2);
+  CHECK(histogram.undefined == 1);
+  CHECK(histogram.darker() == 3);
+  CHECK(histogram.brighter() == 5);
+  CHECK(histogram.most() == 2);
+  std::array<std::uint64_t, DifferenceHistogram::kBins> expected{};
+  // sqrt(0.26) is 0.51, in the 17th of 32 parts; sqrt(0.99) is in the last, and so is all beyond 1.
+  constexpr std::array<std::size_t, 8> kExpected{31, 31 - 16, 0, 32, 32 + 16, 32 + 16, 63, 63};
+  for (const std::size_t bin : kExpected) ++expected[bin];
+  CHECK(histogram.pixels == expected);
+
+  // A bar is as high as the logarithm of its pixels.
+  CHECK(histogram.height(48) == 1);
+  CHECK(histogram.height(31) == doctest::Approx(std::log(2) / std::log(3)));
+  CHECK(histogram.height(30) == 0);
+  CHECK(DifferenceHistogram().height(0) == 0);
+}
+
+TEST_CASE("signed difference: a bin's middle is in the bin, and they stand evenly in the colours' strength") {
+  constexpr std::size_t kBins = DifferenceHistogram::kBins;
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    const double middle = DifferenceHistogram::middle(bin);
+    CHECK(middle == -DifferenceHistogram::middle(kBins - 1 - bin));
+    Pair pair = equal_pair(1, 1);
+    pair.rastered.color[0] = glm::vec3(0);
+    pair.traced.color[0] = glm::vec3(static_cast<float>(middle));
+    CHECK(difference_histogram(pair.rastered, pair.traced).pixels[bin] == 1);
+    const double strength = std::copysign(std::sqrt(std::abs(middle)), middle);
+    CHECK(strength == doctest::Approx((static_cast<double>(bin) + 0.5) / (kBins / 2) - 1));
+  }
 }

@@ -83,4 +83,12 @@ TEST_CASE("compare report: every picture and number is the one that it is said t
   std::vector<glm::vec3> scale;
   for (int i = -256; i <= 256; ++i) scale.push_back(signed_difference_color(i / 256.0 * std::abs(i / 256.0)));
   CHECK(contains(page, base64(encode_png(to_image8(scale, 513, 1)))));
+  const DifferenceHistogram histogram = difference_histogram(pair.rastered, pair.traced);
+  CHECK(contains(page, fmt::format("Darker: {} pixels, equal: {}, brighter: {}.", histogram.darker(),
+                                   histogram.equal, histogram.brighter())));
+  CHECK(contains(page, fmt::format("{} where it is\ntallest", histogram.most())));
+  std::string bars = "M0,100";
+  for (std::size_t bin = 0; bin < histogram.pixels.size(); ++bin)
+    bars += fmt::format(" V{:.1f} H{}", 100 * (1 - histogram.height(bin)), bin + 1);
+  CHECK(contains(page, bars + " V100 Z"));
 }

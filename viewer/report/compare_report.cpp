@@ -86,8 +86,21 @@ written to holds them whole.</p>
   return html("<section>\n<h2>The two pictures</h2>\n{}{}</section>\n", note, pair_html("pair", left, right));
 }
 
-// The colours of signed_difference from -1 to 1, in the same strengths as the picture has, with what they stand for.
-Html difference_scale() {
+// Over the scale: a bar for each bin, all as one path.
+Html histogram_svg(const DifferenceHistogram& histogram) {
+  constexpr double kTall = 100;
+  Html bars = html("M0,{}", kTall);
+  for (std::size_t bin = 0; bin < histogram.pixels.size(); ++bin)
+    bars += html(" V{:.1f} H{}", kTall * (1 - histogram.height(bin)), bin + 1);
+  return html(R"(<svg class="histogram" viewBox="0 0 {} {}" preserveAspectRatio="none" role="img"
+aria-label="How many pixels have which difference"><path d="{} V{} Z"/></svg>
+)",
+              histogram.pixels.size(), kTall, bars, kTall);
+}
+
+// How many pixels have which difference, and the colours of signed_difference from -1 to 1, in the same strengths as the
+// picture has, with what they stand for.
+Html difference_scale(const DifferenceHistogram& histogram) {
   constexpr int kSteps = 256;
   Picture ramp;
   for (int i = -kSteps; i <= kSteps; ++i) {
@@ -96,11 +109,15 @@ Html difference_scale() {
   }
   const Image8 image = to_image8(ramp, static_cast<int>(ramp.size()), 1);
   return html(R"(<div class="scale">
-<img alt="Scale from violet, darker by 1, over grey, equal, to yellow, brighter by 1" src="data:image/png;base64,{}">
+{}<img alt="Scale from violet, darker by 1, over grey, equal, to yellow, brighter by 1" src="data:image/png;base64,{}">
 <div><span>−1</span><span>−¼</span><span>0</span><span>+¼</span><span>+1</span></div>
 </div>
+<p class="quiet">Darker: {} pixels, equal: {}, brighter: {}. The height of a bar is the logarithm of its pixels, {} where it is
+tallest.</p>
 )",
-              Html{base64(encode_png(image))});
+              histogram_svg(histogram), Html{base64(encode_png(image))}, Html{grouped(histogram.darker())},
+              Html{grouped(histogram.equal)}, Html{grouped(histogram.brighter())},
+              Html{grouped(histogram.most())});
 }
 
 Html differences(const CompareReport& report) {
@@ -143,7 +160,8 @@ Black where they are equal in every bit.{})",
 </div>
 </section>
 )",
-              table_html(causes), figure_html(signed_picture), difference_scale(),
+              table_html(causes), figure_html(signed_picture),
+              difference_scale(difference_histogram(report.rastered, report.traced)),
               figure_html(cause_picture));
 }
 

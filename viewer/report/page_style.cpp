@@ -143,6 +143,7 @@ thead th, thead + tbody th, thead + tbody td { overflow-wrap: normal; }
           border: 1px solid var(--quiet); vertical-align: -0.08em; }
 .scale { max-width: 46rem; margin-top: 0.8rem; }
 .scale img { width: 100%; height: 1rem; image-rendering: pixelated; }
+.scale .histogram { width: 100%; height: 5rem; fill: var(--quiet); }
 .scale div { display: flex; justify-content: space-between; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
 
 .controls:not([hidden]) { display: flex; flex-wrap: wrap; align-items: center; gap: 0.6rem; margin: 0.5rem 0 1rem; }
