@@ -7,6 +7,7 @@
 #include "viewer/window/frames.h"
 #include "viewer/window/offscreen.h"
 #include "viewer/window/shown.h"
+#include "viewer/window/window_panels.h"
 
 using namespace sidelight;
 using namespace sidelight::test;
@@ -126,6 +127,27 @@ TEST_CASE("window: faults on purpose are said in the smallest window") {
   CHECK(title() > 0);
 }
 
+TEST_CASE("window: the signed difference has its histogram, where there is room for it") {
+  const Workplace here;
+  WindowState state = open_state(here / "good.toml", opener(48, 36));
+  const Pictures pictures = render_pictures(picture_task(state));
+  state.mode = Mode::causes;
+  CHECK_FALSE(show(state, pictures, pictures).histogram);
+  state.mode = Mode::difference;
+  CHECK_FALSE(show(state, pictures, {}).histogram);
+  const Shown shown = show(state, pictures, pictures);
+  REQUIRE(shown.histogram);
+  CHECK(shown.histogram->darker() + shown.histogram->equal + shown.histogram->brighter() == 48 * 36);
+  CHECK(shown.histogram->equal < 48 * 36);
+
+  const auto legend_at = [&](glm::ivec2 size) { return window_layout(state, size, 1).legend.height(); };
+  const int wide = legend_at({1300, 800}), narrow = legend_at({500, 800}), low = legend_at({1300, 260});
+  CHECK(legend_height(state, 1300 - 48, 1) == wide);
+  CHECK(wide > legend_height(state, 1300 - 48, 1, true));
+  CHECK(narrow == legend_height(state, 500 - 48, 1, true));
+  CHECK(low == legend_height(state, 1300 - 48, 1, true));
+}
+
 #ifdef SIDELIGHT_HAVE_OSMESA
 
 TEST_CASE("window: under the causes the mismatches stand before what is unexplained") {
@@ -148,6 +170,25 @@ TEST_CASE("window: under the causes the mismatches stand before what is unexplai
     return least;
   };
   CHECK(column(&Comparison::visibility_mismatches) < column(&Comparison::unexplained));
+}
+
+TEST_CASE("window: all colours of the difference's scale stand in one row, in their order") {
+  const Workplace here;
+  WindowState state = open_state(here / "good.toml", opener(48, 36));
+  state.mode = Mode::difference;
+  const Image8 window = screenshot(state, render_pictures(picture_task(state)), 1300, 800);
+  int rows = 0;
+  for (int y = 0; y < window.height; ++y) {
+    std::size_t bin = 0;
+    for (int x = 0; x < window.width && bin < DifferenceHistogram::kBins; ++x) {
+      const std::uint8_t* const rgb = &window.rgb[3 * static_cast<std::size_t>(y * window.width + x)];
+      const glm::vec3 color = signed_difference_color(DifferenceHistogram::middle(bin));
+      bin += rgb[0] == encode_srgb8(color.x) && rgb[1] == encode_srgb8(color.y) &&
+             rgb[2] == encode_srgb8(color.z);
+    }
+    rows += bin == DifferenceHistogram::kBins;
+  }
+  CHECK(rows >= 8);
 }
 
 #endif

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the colours mean, in a row under the pictures: the causes with their numbers, or the rays of the inspected pixel.
+// What the colours mean, in a row under the pictures: the causes with their numbers, or the rays of the inspected pixel. For
+// the signed difference with a histogram over its scale.
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "viewer/window/canvas.h"
 #include "viewer/window/paint.h"
@@ -21,7 +23,7 @@ constexpr std::array<const char*, 5> kSegmentNames{"mirrored", "refracted", "str
                                                    "to a light: blocked"};
 
 struct Entry {
-  ImU32 color;
+  ImU32 color;  // 0 where the text has none
   std::string text;
 };
 
@@ -49,6 +51,26 @@ std::vector<Entry> cause_entries(const WindowState& state, const std::optional<C
   return out;
 }
 
+std::vector<Entry> difference_entries(const DifferenceHistogram& histogram,
+                                      const std::optional<Comparison>& comparison) {
+  const double all =
+      static_cast<double>(histogram.darker() + histogram.brighter() + histogram.equal + histogram.undefined);
+  std::vector<Entry> out;
+  const auto add = [&](double difference, const char* name, std::uint64_t pixels) {
+    out.push_back({color_of(signed_difference_color(difference)),
+                   fmt::format("{}: {:.1f} % of pixels", name, 100 * static_cast<double>(pixels) / all)});
+  };
+  add(-0.5, "darker", histogram.darker());
+  add(0, "equal", histogram.equal);
+  add(0.5, "brighter", histogram.brighter());
+  if (histogram.undefined > 0) add(std::nan(""), "not a number", histogram.undefined);
+  if (!comparison) return out;
+  const Metrics& m = comparison->metrics;
+  out.push_back({0, fmt::format("root mean square {:.4g}", m.rms)});
+  out.push_back({0, fmt::format("greatest {:.4g} at {},{}", m.max.value, m.max.x, m.max.y)});
+  return out;
+}
+
 std::vector<Entry> ray_entries(const Inspection& inspection) {
   std::array<bool, kSegmentColors.size()> used{};
   for (const RaySegment& segment : ray_segments(inspection))
@@ -62,6 +84,7 @@ std::vector<Entry> ray_entries(const Inspection& inspection) {
 // The longest there can be, for the room that they take.
 std::vector<std::size_t> longest(const WindowState& state) {
   if (state.mode == Mode::causes) return {36, 40, 40, 46};
+  if (state.mode == Mode::difference) return {25, 24, 27, 26, 33};
   if (!state.inspected) return {};
   std::vector<std::size_t> out;
   for (const char* name : kSegmentNames) out.push_back(std::string_view(name).size());
@@ -71,22 +94,66 @@ std::vector<std::size_t> longest(const WindowState& state) {
 // Of the caption's height: the square before the text with the space behind it, and the space to the next entry.
 constexpr double kSwatch = 1.2, kGap = 1.2;
 
+// The histogram at scale 1: its bars, the colours under them, the numbers under those. It stands left of the words.
+constexpr double kBars = 44, kColors = 10, kNumbers = 1.3 * kSmallText,
+                 kHistogram = kBars + kColors + kNumbers;
+constexpr double kWidest = 460, kPartOfWidth = 0.35, kBeside = 24;
+
+double histogram_width(int width, double scale) { return std::min(kWidest * scale, kPartOfWidth * width); }
+
+// The box without it.
+Rect words_box(const Rect& box, double scale) {
+  const double taken = histogram_width(box.width(), scale) + kBeside * scale;
+  return {box.x0 + static_cast<int>(std::lround(taken)), box.y0, box.x1, box.y1};
+}
+
+void draw_histogram(const Canvas& canvas, const DifferenceHistogram& histogram, const Rect& box) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const double s = canvas.scale(), width = histogram_width(box.width(), s), foot = box.y0 + kBars * s;
+  const double bar = width / static_cast<double>(histogram.pixels.size());
+  for (std::size_t bin = 0; bin < histogram.pixels.size(); ++bin) {
+    const double x0 = box.x0 + bar * static_cast<double>(bin), x1 = x0 + bar;
+    list.AddRectFilled(point(x0, foot - kBars * s * histogram.height(bin)), point(x1, foot), kQuiet);
+    list.AddRectFilled(point(x0, foot), point(x1, foot + kColors * s),
+                       color_of(signed_difference_color(DifferenceHistogram::middle(bin))));
+  }
+  list.AddRect(point(box.x0, foot), point(box.x0 + width, foot + kColors * s), kFrame);
+  constexpr std::array<const char*, 5> kTicks{"-1", "-1/4", "0", "+1/4", "+1"};
+  const ImFont& font = *canvas.fonts().small;
+  for (std::size_t k = 0; k < kTicks.size(); ++k) {
+    const double length = static_cast<double>(font.CalcTextSizeA(font.FontSize, 1e6f, 0, kTicks[k]).x);
+    const double x = box.x0 + (width - length) * static_cast<double>(k) / (kTicks.size() - 1);
+    list.AddText(&font, font.FontSize, point(x, foot + (kColors + 1) * s), kQuiet, kTicks[k]);
+  }
+}
+
 }  // namespace
 
 std::uint32_t segment_color(SegmentKind kind) { return kSegmentColors[static_cast<std::size_t>(kind)]; }
 
-int legend_rows(const WindowState& state, int width, double scale) {
+int legend_height(const WindowState& state, int width, double scale, bool brief) {
   const double height = kCaptionText * scale;
   std::vector<double> widths;
   for (const std::size_t length : longest(state))
     widths.push_back(kSwatch * height + text_width_bound(length, height));
-  return widths.empty() ? 0 : flow_rows(widths, kGap * height, width);
+  if (widths.empty()) return 0;
+  const int beside = words_box({0, 0, width, 0}, scale).width();
+  const bool histogram =
+      state.mode == Mode::difference && !brief && beside >= *std::max_element(widths.begin(), widths.end());
+  const double words = kLegendLine * flow_rows(widths, kGap * height, histogram ? beside : width);
+  return static_cast<int>(std::lround(scale * (std::max(words, histogram ? kHistogram : 0) + 8)));
 }
 
-void draw_legend(const Canvas& canvas, const WindowContents& contents, const Rect& box) {
+void draw_legend(const Canvas& canvas, const WindowContents& contents, const Rect& whole) {
+  const bool brief = whole.height() <= legend_height(contents.state, whole.width(), canvas.scale(), true);
+  const bool with_histogram = contents.shown.histogram && !brief;
+  if (with_histogram) draw_histogram(canvas, *contents.shown.histogram, whole);
+  const Rect box = with_histogram ? words_box(whole, canvas.scale()) : whole;
   std::vector<Entry> entries;
   if (contents.state.mode == Mode::causes) {
     if (contents.finished.finished) entries = cause_entries(contents.state, contents.finished.comparison);
+  } else if (const auto& histogram = contents.shown.histogram) {
+    entries = difference_entries(*histogram, contents.finished.comparison);
   } else if (contents.inspection) {
     entries = ray_entries(*contents.inspection);
   }

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "common/picture/layer_picture.h"
-#include "common/picture/signed_difference.h"
 
 namespace sidelight {
 namespace {
@@ -213,6 +212,8 @@ Shown show(const WindowState& state, const Pictures& latest, const Pictures& fin
   out.panels = panels(state, latest, finished);
   if (state.mode == Mode::flip) out.panels.erase(out.panels.begin() + (state.view.flipped ? 0 : 1));
   out.swipe = state.mode == Mode::swipe;
+  if (state.mode == Mode::difference && finished.finished)
+    out.histogram = difference_histogram(*finished.rastered, *finished.traced);
   return out;
 }
 

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/picture/signed_difference.h"
 #include "common/picture/srgb.h"
 #include "viewer/window/panels.h"
 #include "viewer/window/state.h"
@@ -22,8 +24,9 @@ struct ShownPanel {
 };
 
 struct Shown {
-  std::vector<ShownPanel> panels;  // 1 or 2, left to right, as before any flip
-  bool swipe = false;              // two panels in one place, divided by state.swipe
+  std::vector<ShownPanel> panels;                // 1 or 2, left to right, as before any flip
+  bool swipe = false;                            // two panels in one place, divided by state.swipe
+  std::optional<DifferenceHistogram> histogram;  // of the signed difference, where that is shown
 };
 
 // Empty before the first picture. Modes that compare show the last pictures that were finished.

@@ -136,15 +136,15 @@ WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double sca
   int lesson = state.lesson ? pixels(lesson_height(state, room.x - margin, scale)) : 0;
   int inspector = state.inspected ? std::max(pixels(120), size.y * 2 / 5) : 0;
   const int slow = state.slow ? pixels(2.6 * kSmallText) : 0;
-  const int legend_lines = legend_rows(state, room.x - 2 * margin, scale);
-  const int legend = legend_lines > 0 ? pixels(kLegendLine * legend_lines + 8) : 0;
+  int legend = legend_height(state, room.x - 2 * margin, scale);
 
-  // Words give way to the pictures: first the lines above them, then what can be scrolled.
+  // Words give way to the pictures: first the histogram and the lines above them, then what can be scrolled.
   LayoutOptions options{scale, true, state.opened.times, true};
   const auto missing = [&] {
     const int head = layout_size({0, 0}, options).y - line, pictures = size.y * 3 / 10;
     return head + pictures + legend + slow + inspector + lesson + footer - size.y;
   };
+  if (missing() > 0) legend = legend_height(state, room.x - 2 * margin, scale, true);
   if (missing() > 0) options.times = false;
   if (missing() > 0 && !state.faults.any()) options.title = false;  // faults are always said
   if (const int more = missing(); more > 0 && lesson + inspector > 0) {

@@ -46,10 +46,11 @@ std::vector<Command> draw_window(const Canvas& canvas, const WindowContents& con
 // The panel under a point of the window: 0, 1, or -1.
 int panel_at(const WindowLayout& layout, glm::dvec2 point);
 
-// How many rows the parts take that flow: the buttons, the legend (0 where there is none), the lines of the lesson's text.
+// How many rows the parts take that flow: the buttons, the lines of the lesson's text.
 int button_rows(const WindowState& state, int width, double scale);
-int legend_rows(const WindowState& state, int width, double scale);
 int lesson_rows(const WindowState& state, int width, double scale);
+// In device pixels, 0 where there is none; without the histogram, which has words too, if it is to be `brief`.
+int legend_height(const WindowState& state, int width, double scale, bool brief = false);
 
 // Parts of draw_window, in files of their own. Each is called where its rectangle is not empty.
 void draw_marks(const Canvas& canvas, const WindowContents& contents, const WindowLayout& layout);
