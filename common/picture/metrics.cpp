@@ -51,7 +51,7 @@ Metrics measure(std::span<const glm::vec3> a, std::span<const glm::vec3> b, int 
         }
         row.add(from_a, from_b);
         const double difference = std::abs(static_cast<double>(from_a) - static_cast<double>(from_b));
-        if (difference > metrics.max.value) metrics.max = {difference, x, y, channel};
+        if (difference > metrics.max.value) metrics.max = {difference, x, y, channel, from_a, from_b};
       }
     }
     total.add(row);

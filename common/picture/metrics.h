@@ -15,6 +15,7 @@ struct Metrics {
   struct Max {
     double value = 0;
     int x = 0, y = 0, channel = 0;  // the first that has it: row by row, then R, G, B
+    float a = 0, b = 0;             // what the two pictures have there
   } max;                            // greatest |a - b|; x and y count from the arrays' first pixel
   double mean = 0;                  // of |a - b| over pixels and channels
   double rms = 0;                   // root of the mean of (a - b)² over pixels and channels
@@ -22,7 +23,7 @@ struct Metrics {
   std::uint64_t non_finite = 0;  // channel values that are not finite in one or both pictures
 };
 
-// a.size() == b.size() == width * height. Symmetric in a and b.
+// a.size() == b.size() == width * height. Symmetric in a and b, but that they change places in `max`.
 Metrics measure(std::span<const glm::vec3> a, std::span<const glm::vec3> b, int width, int height);
 
 }  // namespace sidelight

@@ -120,6 +120,9 @@ TEST_CASE("the greatest difference is named, the first of equals") {
   CHECK(metrics.max.x == 1);
   CHECK(metrics.max.y == 1);
   CHECK(metrics.max.channel == 2);
+  CHECK(metrics.max.a == 0);
+  CHECK(metrics.max.b == -0.75f);
+  CHECK(measure(b, a, 4, 3).max.a == -0.75f);
   CHECK(metrics.mean == 2.0 / 36);
   CHECK(metrics.rms == std::sqrt((2 * 0.5625 + 0.25) / 36));
 }

@@ -70,10 +70,11 @@ std::string findings_text(const PicturePair& pair, const Findings& found, const 
   if (excess.non_finite > 0) text += fmt::format(", {} not finite", excess.non_finite);
   if (found.percent_covered_over)
     text += fmt::format("; {:.3g} % of those with an object", *found.percent_covered_over);
-  text += fmt::format("\n  {}greatest {:.4g} at {},{} in {}, mean {:.4g}, rms {:.4g}, psnr {}\n",
-                      excess.non_finite > 0 ? "of what is finite: " : "", metrics.max.value, metrics.max.x,
-                      metrics.max.y, "RGB"[metrics.max.channel], metrics.mean, metrics.rms,
-                      metrics.psnr ? fmt::format("{:.2f} dB", *metrics.psnr) : "infinite");
+  text += fmt::format(
+      "\n  {}greatest {:.4g} at {},{} in {} ({:.4g} and {:.4g}), mean {:.4g}, rms {:.4g}, psnr {}\n",
+      excess.non_finite > 0 ? "of what is finite: " : "", metrics.max.value, metrics.max.x, metrics.max.y,
+      "RGB"[metrics.max.channel], metrics.max.a, metrics.max.b, metrics.mean, metrics.rms,
+      metrics.psnr ? fmt::format("{:.2f} dB", *metrics.psnr) : "infinite");
   const auto differing = [&](const char* what, const std::optional<std::uint64_t>& pixels) {
     if (pixels) text += fmt::format("  {} differs in {} pixels\n", what, *pixels);
   };
