@@ -55,3 +55,15 @@ TEST_CASE("all modes: every layer of both renderers and every step of the ledger
   CHECK(apart(here / "out/modes/ledger_2_minus_shadow.png", here / "out/raster.png") > 0.1f);
   CHECK(apart(here / "out/modes/raster_object.png", here / "out/modes/raytrace_object.png") == 0);
 }
+
+TEST_CASE("all modes: with the z-buffer's surfaces every layer but the cost, which is not made then") {
+  const Workplace here;
+  const Arguments command{"compare", "good.toml", "-r", "32x24", "-q", "--no-times", "--all-modes", "-o"};
+  REQUIRE(here.run(command + Arguments{"rays"}).code == 0);
+  REQUIRE(here.run(command + Arguments{"raster", "--primary", "raster"}).code == 0);
+  std::vector<std::string> expected = here.names("rays/modes");
+  CHECK(std::erase(expected, "raytrace_cost.png") == 1);
+  CHECK(here.names("raster/modes") == expected);
+  for (const std::string& name : expected)
+    CHECK(apart(here / ("raster/modes/" + name), here / ("rays/modes/" + name)) == 0);
+}

@@ -99,10 +99,11 @@ void write_layers(const Job& job, const std::string& folder, const Renderer& ren
 //   raster_LAYER.png, raytrace_LAYER.png   each layer that the frame's renderer makes (layer_picture.h)
 //   ledger_1_raster.png, ...               the left picture becoming the right one (ledger_sums in compare.h)
 //   signed_difference.png                  where the right picture is brighter or darker (signed_difference.h)
-void write_all_modes(const Job& job, const std::string& folder, const Frame& rastered, const Frame& traced) {
+void write_all_modes(const Job& job, const std::string& folder, const Renderer& raster, const Frame& rastered,
+                     const Renderer& raytrace, const Frame& traced) {
   make_folder(folder);
-  write_layers(job, folder, *find_renderer("raster"), rastered);
-  write_layers(job, folder, *find_renderer("raytrace"), traced);
+  write_layers(job, folder, raster, rastered);
+  write_layers(job, folder, raytrace, traced);
 
   const Metadata both = job_metadata(job, "raster, raytrace");
   const auto write = [&](const std::string& name, std::span<const glm::vec3> linear) {
@@ -178,7 +179,8 @@ int run_compare(const CompareFlags& flags) {
   write_pictures(job, flags.folder, rastered, traced);
   write_text_file(flags.folder + "/compare.json", comparison_json(job, result, spoiled, rastered, traced));
   write_text_file(flags.folder + "/report.html", report(job, result, spoiled, rastered, traced));
-  if (flags.all_modes) write_all_modes(job, flags.folder + "/modes", rastered.frame, traced.frame);
+  if (flags.all_modes)
+    write_all_modes(job, flags.folder + "/modes", raster, rastered.frame, raytrace, traced.frame);
   if (!flags.job.quiet) print_summary(job, result, spoiled, printable(flags.folder));
   return result.agrees() ? 0 : 1;
 }
