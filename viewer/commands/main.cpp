@@ -53,13 +53,23 @@ struct HelpFormatter : CLI::Formatter {
   }
 };
 
+// A verb's own, and those of its groups, which have a heading of their own in its help.
+std::vector<CLI::Option*> options_of(CLI::App& verb) {
+  std::vector<CLI::Option*> out = verb.get_options();
+  for (CLI::App* group : verb.get_subcommands({})) {
+    const std::vector<CLI::Option*> grouped = group->get_options();
+    out.insert(out.end(), grouped.begin(), grouped.end());
+  }
+  return out;
+}
+
 // A shell's unset variable must not pass for an option that was not given.
 void refuse_empty_values(CLI::App& app) {
   const auto wants_value = [](const std::string& value) {
     return value.empty() ? std::string("wants a value; got ''") : std::string();
   };
   for (CLI::App* verb : app.get_subcommands({}))
-    for (CLI::Option* option : verb->get_options()) option->check(wants_value);
+    for (CLI::Option* option : options_of(*verb)) option->check(wants_value);
 }
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
@@ -76,15 +86,22 @@ void check_verb(const CLI::App& app, const std::string& given) {
                                did_you_mean(given, verbs)));
 }
 
-// What a verb could not make sense of, beginning with the flag that it does not know: "--dept 3".
-std::string unexpected(const CLI::App& verb) {
-  const std::vector<std::string> words = verb.remaining();
+// What a verb could not make sense of. CLI11 counts the mark "--", after which nothing is a flag, among it.
+std::vector<std::string> left_over(const CLI::App& verb) {
+  std::vector<std::string> words = verb.remaining();
+  std::erase(words, "--");
+  return words;
+}
+
+// The same in a sentence, beginning with the flag that the verb does not know: "--dept 3".
+std::string unexpected(CLI::App& verb) {
+  const std::vector<std::string> words = left_over(verb);
   const auto flag =
       std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("--"); });
   if (flag == words.end()) return fmt::format("{}: not expected: {}", verb.get_name(), fmt::join(words, " "));
   const std::string name = flag->substr(0, flag->find('='));
   std::vector<std::string> known;
-  for (const CLI::Option* option : verb.get_options())
+  for (const CLI::Option* option : options_of(verb))
     for (const std::string& each : option->get_lnames()) known.push_back("--" + each);
   return fmt::format("{}: there is no '{}'; {}", verb.get_name(), name, did_you_mean(name, known));
 }
@@ -119,7 +136,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return all_written(app.exit(error));  // --help, --version
     const std::vector<CLI::App*> verb = app.get_subcommands();
-    const bool extra = !verb.empty() && !verb[0]->remaining().empty();
+    const bool extra = !verb.empty() && !left_over(*verb[0]).empty();
     const std::string what = extra ? unexpected(*verb[0]) : error.what();
     return complain(kUsage, fmt::format("{} (sidelight {}--help shows how)", printable(what, 300),
                                         verb.empty() ? "" : verb[0]->get_name() + " "));
