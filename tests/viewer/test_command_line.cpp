@@ -34,3 +34,21 @@ TEST_CASE("command line: the flags that diff has for scenes are among those that
   refuse(here, {"diff", "a.exr", "good.toml", "--sp", "4"}, "no '--sp'; did you mean '--spp'?");
   refuse(here, {"diff", "a.exr", "good.toml", "--isa", ""}, "wants a value");
 }
+
+TEST_CASE("command line: what is written does not take the place of what is read") {
+  const Workplace here;
+  REQUIRE(here.run(render_small({"-o", "a.png"})).code == 0);
+  REQUIRE(here.run(render_small({"-o", "b.png", "--local"})).code == 0);
+  const std::string a = read_bytes(here / "a.png"), b = read_bytes(here / "b.png");
+  const std::string here_too = here / "good.toml";  // by another path
+  refuse(here, render_small({"-o", "c.png", "--stats", "good.toml"}), "SCENE and --stats want two files");
+  refuse(here, render_small({"-o", "c.png", "--stats", here_too}), "SCENE and --stats want two files");
+  refuse(here, {"explain", "good.toml", "--pixel", "1,1", "--json", "good.toml"}, "SCENE and --json");
+  refuse(here, {"view", "good.toml", "--frame-log", "good.toml"}, "SCENE and --frame-log");
+  refuse(here, {"diff", "a.png", "b.png", "-o", "a.png"}, "A and -o want two files");
+  refuse(here, {"diff", "a.png", "b.png", "-o", "b.png"}, "B and -o want two files");
+  refuse(here, {"diff", "a.png", "b.png", "--json", "b.png"}, "B and --json want two files");
+  refuse(here, {"diff", "a.png", "good.toml", "--json", "./good.toml"}, "B and --json want two files");
+  CHECK(read_bytes(here / "a.png") == a);
+  CHECK(read_bytes(here / "b.png") == b);
+}

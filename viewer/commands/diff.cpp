@@ -29,7 +29,11 @@ void check_flags(const DiffFlags& flags) {
   check("--hardfail", tolerance.hard_fail);
   if (!flags.output.empty() && !flags.output.ends_with(".png"))
     throw UsageError("-o wants a file that ends in .png; got '" + flags.output + "'");
-  check_apart(flags.output, flags.json, "--json");
+  check_apart("-o", flags.output, "--json", flags.json);
+  for (const auto& [name, read] : {std::pair{"A", flags.a}, {"B", flags.b}}) {
+    check_apart(name, read, "-o", flags.output);
+    check_apart(name, read, "--json", flags.json);
+  }
   if (flags.a.ends_with(".toml"))
     throw UsageError("the first of the two is a picture; got the scene '" + flags.a + "'");
   if (!with_scene(flags) && flags.scene_flags->count_all() > 0)

@@ -137,6 +137,7 @@ void check_finite(const std::vector<ExplainedSample>& samples, glm::ivec2 pixel)
 }
 
 int run_explain(const ExplainFlags& flags) {
+  check_apart("SCENE", flags.job.scene, "--json", flags.json);
   const Job job = load_job(flags.job);
   const int n = job.camera.n;
   const glm::ivec2 pixel = parse_pixel(flags.pixel, job.scene.width, job.scene.height, "--pixel");

@@ -114,14 +114,16 @@ glm::ivec2 parse_pixel(const std::string& text, int width, int height, const cha
   return {at[0], at[1]};
 }
 
-void check_apart(const std::string& output, const std::string& other, const char* flag) {
+void check_apart(const char* name, const std::string& file, const char* written_name,
+                 const std::string& written) {
   namespace fs = std::filesystem;
-  const auto place = [](const std::string& file) {  // whether the file is there or not
+  const auto place = [](const std::string& path) {  // whether the file is there or not
     std::error_code ignored;
-    return fs::weakly_canonical(fs::absolute(file, ignored), ignored);
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
   };
-  if (!output.empty() && !other.empty() && place(output) == place(other))
-    throw UsageError(fmt::format("-o and {} want two files; got '{}' and '{}'", flag, output, other));
+  if (!file.empty() && !written.empty() && place(file) == place(written))
+    throw UsageError(
+        fmt::format("{} and {} want two files; got '{}' and '{}'", name, written_name, file, written));
 }
 
 void add_render_flags(CLI::App& verb, JobFlags& flags) {

@@ -51,8 +51,10 @@ glm::ivec2 parse_size(const std::string& text, const char* flag, int longest = 6
 glm::ivec2 parse_pixel(const std::string& text, int width, int height, const char* flag,
                        const char* names = "x,y");
 
-// Throws UsageError where the file of -o is that of another output, named by its flag. Both may be empty: not asked for.
-void check_apart(const std::string& output, const std::string& other, const char* flag);
+// Throws UsageError where what is written would take the place of what is read or written besides; each file comes
+// with its name on the command line, and may be empty: not asked for.
+void check_apart(const char* name, const std::string& file, const char* written_name,
+                 const std::string& written);
 
 // A scene ready to be rendered.
 struct Job {

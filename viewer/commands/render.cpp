@@ -87,7 +87,8 @@ int run_render(const RenderFlags& flags) {
     throw UsageError("--layers needs an .exr file: a .png holds the colour only");
   if (!png && flags.linear16)
     throw UsageError("--linear16 is for .png files; an .exr is linear float already");
-  check_apart(flags.output, flags.stats, "--stats");
+  check_apart("-o", flags.output, "--stats", flags.stats);
+  check_apart("SCENE", flags.job.scene, "--stats", flags.stats);
   Job job = load_job(flags.job);
   const Renderer* renderer = &with_primary(job, *find_renderer(flags.renderer));
   check_makes_faults(renderer->name, job.options.faults);

@@ -61,6 +61,7 @@ WindowState first_state(const ViewFlags& flags, const SceneOpener& open) {
 }
 
 void check_flags(const ViewFlags& flags) {
+  check_apart("SCENE", flags.job.scene, "--frame-log", flags.frame_log);
   if (flags.screenshot.empty()) return;
   if (!flags.screenshot.ends_with(".png"))
     throw UsageError("--screenshot wants a file that ends in .png; got '" + flags.screenshot + "'");
