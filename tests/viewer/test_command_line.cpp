@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the words of a command line are taken for.
+#include <nlohmann/json.hpp>
+
+#include "common/picture/image_io.h"
 #include "tests/viewer/program.h"
 
 using namespace sidelight;
@@ -19,6 +22,13 @@ void refuse(const Workplace& here, const Arguments& arguments, const std::string
   CHECK(read_bytes(here / "good.toml") == kGoodScene);
 }
 
+nlohmann::json stats(const Workplace& here, const Arguments& more) {
+  const Outcome outcome = here.run(render_small({"-q", "-o", "a.png", "--stats", "-"}) + more);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return nlohmann::json::parse(outcome.out);
+}
+
 }  // namespace
 
 TEST_CASE("command line: after -- a scene may begin with a dash, and what is missing is named") {
@@ -33,6 +43,19 @@ TEST_CASE("command line: the flags that diff has for scenes are among those that
   const Workplace here;
   refuse(here, {"diff", "a.exr", "good.toml", "--sp", "4"}, "no '--sp'; did you mean '--spp'?");
   refuse(here, {"diff", "a.exr", "good.toml", "--isa", ""}, "wants a value");
+}
+
+TEST_CASE("command line: zeros before a number do not make it octal") {
+  const Workplace here;
+  CHECK(stats(here, {"--spp", "04"}).at("spp") == 4);
+  CHECK(stats(here, {"-j", "010"}).at("threads") == 10);
+  CHECK(stats(here, {"--repeat", "010"}).at("frame_ms").at("runs") == 10);
+  CHECK(stats(here, {"--snap-bits", "010", "--renderer", "raster"}).at("faults") == "snap-bits 10");
+  CHECK(stats(here, {"--tessellate", "0020"}).at("faults") == "tessellate 20");
+  REQUIRE(here.run(render_small({"-o", "a.exr", "--depth", "010"})).code == 0);
+  CHECK(read_image(here / "a.exr").metadata.at("depth") == "10");
+  CHECK(stats(here, {"-j", "0"}).at("threads") == stats(here, {"-j", "00"}).at("threads"));
+  refuse(here, render_small({"-o", "b.png", "--spp", "011"}), "a square number");
 }
 
 TEST_CASE("command line: what is written does not take the place of what is read") {

@@ -8,6 +8,7 @@
 #include "viewer/bench/front.h"
 #include "viewer/bench/sweep.h"
 #include "viewer/commands/commands.h"
+#include "viewer/commands/decimal.h"
 #include "viewer/commands/interrupt.h"
 #include "viewer/commands/job.h"
 #include "viewer/commands/progress.h"
@@ -260,6 +261,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   verb->add_option("--runs", flags->runs, "timed runs of each setting, after a warm-up; 7 or more")
       ->type_name("N")
+      ->transform(decimal)
       ->check(CLI::Range(7, 100000).description(""))
       ->capture_default_str();
   add_quiet_flag(*verb, flags->job);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "viewer/commands/commands.h"
+#include "viewer/commands/decimal.h"
 #include "viewer/commands/diff_scene.h"
 #include "viewer/commands/result_json.h"
 
@@ -130,6 +131,7 @@ void add_diff_command(CLI::App& app, int& exit_code) {
   verb->add_option("--fail", tolerance.fail, "a pixel is over if a channel is off by more than this (0)");
   verb->add_option("--failpercent", tolerance.fail_percent, "so many percent of the pixels may be over (0),");
   verb->add_option("--allow", tolerance.allow, "or so many pixels (0), whichever is more,")
+      ->transform(decimal)
       ->check([](const std::string& text) {
         const bool whole = text.find_first_not_of("0123456789") == std::string::npos;
         return whole ? "" : fmt::format("wants a number of pixels, 0 or more; got '{}'", text);

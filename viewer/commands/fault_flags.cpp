@@ -10,6 +10,7 @@
 
 #include "common/error.h"
 #include "common/scene/limits.h"
+#include "viewer/commands/decimal.h"
 
 namespace sidelight {
 namespace {
@@ -35,9 +36,11 @@ void add_fault_flags(CLI::App& verb, FaultFlags& flags) {
   add("--near", flags.near_plane, "Z", "its near plane; 1e-3 times the eye's distance to look_at");
   add("--far", flags.far_plane, "Z", "its far plane; 1e3 times that distance");
   add("--snap-bits", flags.snap_bits, "N", "vertices are rounded to 1/2^N pixel, N from 0 to 16: cracks")
+      ->transform(decimal)
       ->check(CLI::Range(0, 16).description(""));
   add("--tessellate", flags.tessellate, "N",
       "spheres are N segments around, N/2 from pole to pole; N even, 4 to 1024")
+      ->transform(decimal)
       ->check(CLI::Range(4, 1024).description(""));
   add("--precision", flags.precision, "float", "triangles are decided in float, with nothing behind it")
       ->check(CLI::IsMember({"float"}).description(""));

@@ -13,6 +13,7 @@
 #include "common/parallel.h"
 #include "common/scene/tessellate.h"
 #include "common/scene/toml.h"
+#include "viewer/commands/decimal.h"
 #include "viewer/commands/interrupt.h"
 #include "viewer/report/shell_word.h"
 
@@ -127,15 +128,18 @@ void check_apart(const char* name, const std::string& file, const char* written_
 }
 
 void add_render_flags(CLI::App& verb, JobFlags& flags) {
-  verb.add_option("--spp", flags.spp, "samples per pixel, a square number: 1, 4, 9, ...");
+  verb.add_option("--spp", flags.spp, "samples per pixel, a square number: 1, 4, 9, ...")->transform(decimal);
   verb.add_option("--depth", flags.depth, "rays along a path, the eye ray included; 1 to 1000")
+      ->transform(decimal)
       ->type_name("N")
       ->check(CLI::Range(1, 1000).description(""));
   verb.add_flag("--no-shadows", flags.no_shadows, "every light reaches every surface");
   verb.add_flag("--no-reflection", flags.no_reflection, "no mirror rays");
   verb.add_flag("--no-refraction", flags.no_refraction, "no refracted rays");
   verb.add_flag("--local", flags.local, "all three: local light only, as the z-buffer");
-  verb.add_option("-j", flags.threads, "threads, 0 = all cores")->check(CLI::Range(0, 1024));
+  verb.add_option("-j", flags.threads, "threads, 0 = all cores")
+      ->transform(decimal)
+      ->check(CLI::Range(0, 1024));
   verb.add_option("--isa", flags.isa, "force scalar, avx2 or avx512 (the picture is the same)");
 }
 

@@ -6,6 +6,7 @@
 
 #include "viewer/bench/front.h"
 #include "viewer/commands/commands.h"
+#include "viewer/commands/decimal.h"
 #include "viewer/commands/progress.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/commands/result_json.h"
@@ -145,6 +146,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
       ->type_name("N")
       ->check(CLI::Range(1, 100000).description(""));
   verb->add_option("--stats", flags->stats, "write times and counts as JSON to FILE, - for standard output");
+      ->transform(decimal)
   verb->footer(fmt::format(
       "Layers: {} all\n"
       "Examples:\n"

@@ -6,6 +6,7 @@
 
 #include "common/picture/atomic_file.h"
 #include "viewer/commands/commands.h"
+#include "viewer/commands/decimal.h"
 #include "viewer/commands/interrupt.h"
 #include "viewer/commands/renderers.h"
 #include "viewer/window/offscreen.h"
@@ -117,6 +118,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(modes).description(""));
   verb->add_option("--step", flags->step, "the lesson's step N is shown first")
       ->type_name("N")
+      ->transform(decimal)
       ->check(CLI::Range(1, 100).description(""));
   verb->add_option("--inspect", flags->inspect, "the pixel x,y is inspected first");
   verb->add_option("--press", flags->press, "these keys are pressed first, as in \"t t c\"")
