@@ -173,6 +173,14 @@ TEST_CASE("output: the statistics have the documented keys") {
   CHECK(some["rays"]["reflection"] == 0);
   CHECK(some["rays"]["refraction"] > 0);
   CHECK(some["cut_weight"] == 0);
+
+  // Of a part, counts and times are the part's.
+  const Outcome cropped = here.run(render_small({"-o", "a.png", "--crop", "4,2,16,12", "--stats", "-"}));
+  REQUIRE(cropped.code == 0);
+  const auto part = nlohmann::json::parse(cropped.out);
+  CHECK(part.at("crop") == nlohmann::json::array({4, 2, 16, 12}));
+  CHECK(part["width"] == 16);
+  CHECK(part["rays"]["primary"] == 12 * 10);
 }
 
 TEST_CASE("output: the z-buffer's statistics tell where its time goes") {

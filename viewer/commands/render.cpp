@@ -55,27 +55,29 @@ Json stats_json(const Job& job, const Renderer& renderer, const TimedFrame& time
             {"scene_hash", job.scene.hash},
             {"version", SIDELIGHT_VERSION},
             {"width", job.scene.width},
-            {"height", job.scene.height},
-            {"spp", job.flags.spp},
-            {"threads", job.options.threads},
-            {"isa", isa_name(job.options.isa)},
-            {"triangles", job.scene.triangles.size()},
-            {"spheres", job.scene.spheres.size()},
-            {"planes", job.scene.planes.size()},
-            {"load_ms", job.load_ms},
-            {"build_ms", timed.build_ms},
-            {"frame_ms", frame},
-            {"cpu_ms", spread_json(spread_of(cpu))},
-            {"rays",
-             {{"primary", stats.rays.primary},
-              {"shadow", stats.rays.shadow},
-              {"reflection", stats.rays.reflection},
-              {"refraction", stats.rays.refraction}}},
-            {"tests", counts.tests},
-            {"exact", {{"filtered", counts.filtered}, {"double", counts.in_double}, {"exact", counts.exact}}},
-            {"self_shadowed", stats.self_shadowed},
-            {"cut_weight", stats.cut_weight},
-            {"peak_memory_mb", peak_memory_mb()}};
+            {"height", job.scene.height}};
+  add_crop(json, timed.frame.window, job.scene.width, job.scene.height);
+  json.update(
+      {{"spp", job.flags.spp},
+       {"threads", job.options.threads},
+       {"isa", isa_name(job.options.isa)},
+       {"triangles", job.scene.triangles.size()},
+       {"spheres", job.scene.spheres.size()},
+       {"planes", job.scene.planes.size()},
+       {"load_ms", job.load_ms},
+       {"build_ms", timed.build_ms},
+       {"frame_ms", frame},
+       {"cpu_ms", spread_json(spread_of(cpu))},
+       {"rays",
+        {{"primary", stats.rays.primary},
+         {"shadow", stats.rays.shadow},
+         {"reflection", stats.rays.reflection},
+         {"refraction", stats.rays.refraction}}},
+       {"tests", counts.tests},
+       {"exact", {{"filtered", counts.filtered}, {"double", counts.in_double}, {"exact", counts.exact}}},
+       {"self_shadowed", stats.self_shadowed},
+       {"cut_weight", stats.cut_weight},
+       {"peak_memory_mb", peak_memory_mb()}});
   for (const StageTime& stage : stats.stages) json["stages_ms"][std::string(stage.name)] = stage.ms;
   if (job.options.faults.any()) json["faults"] = job.options.faults.text();
   return json;
@@ -144,9 +146,9 @@ void add_render_command(CLI::App& app, int& exit_code) {
   verb->add_flag("--linear16", flags->linear16, "write the .png linear with 16 bits");
   verb->add_option("--repeat", flags->repeat, "render N times after a warm-up, the eye moving, for times")
       ->type_name("N")
+      ->transform(decimal)
       ->check(CLI::Range(1, 100000).description(""));
   verb->add_option("--stats", flags->stats, "write times and counts as JSON to FILE, - for standard output");
-      ->transform(decimal)
   verb->footer(fmt::format(
       "Layers: {} all\n"
       "Examples:\n"
