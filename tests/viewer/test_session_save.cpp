@@ -80,6 +80,29 @@ TEST_CASE("copy as command: explain then prints the inspector's words") {
   }
 }
 
+TEST_CASE("inspection: the facets of a tessellation are told of, other faults are not, and so it says") {
+  CHECK(told_of_faults({}).empty());
+  Faults faults;
+  faults.tessellate = 4;
+  CHECK(told_of_faults(faults) == "told of the facets");
+  faults.snap_bits = 2;
+  CHECK(told_of_faults(faults) == "told of the facets, but as without the other faults on purpose");
+  CHECK(told_of_faults(faults.without(FaultKind::tessellate)) == "told as without the faults on purpose");
+
+  // And it is so: the facet, a triangle, lies behind the sphere's surface.
+  const Workplace here;
+  write_bytes(here / "scene.toml", kGoodScene + kStep);
+  const auto first_hit = [&](const Faults& on) {
+    Session session(open_state(here / "scene.toml", open_plain), open_plain);
+    session.set_faults(on);
+    session.inspect({30, 22});
+    return inspect_pixel(session.state(), rested(session))->samples[0].raytrace.local.hit.t;
+  };
+  const double exact = first_hit({});
+  CHECK(first_hit(faults) > exact);
+  CHECK(first_hit(faults.without(FaultKind::tessellate)) == exact);
+}
+
 TEST_CASE("inspection: rays start where the eye's ends, and the lobe's value is the model's") {
   const Workplace here;
   write_bytes(here / "scene.toml", kGoodScene + kStep);

@@ -98,4 +98,11 @@ std::optional<Inspection> inspect_pixel(const WindowState& state, const Pictures
   return out;
 }
 
+std::string told_of_faults(const Faults& faults) {
+  if (!faults.any()) return {};
+  if (!faults.tessellate) return "told as without the faults on purpose";
+  if (!faults.without(FaultKind::tessellate).any()) return "told of the facets";
+  return "told of the facets, but as without the other faults on purpose";
+}
+
 }  // namespace sidelight

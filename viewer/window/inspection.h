@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Why the inspected pixel has its colour: the records that both renderers' own code tells (common/model/explanation.h),
-// as `sidelight explain` prints them. Told for the scene without faults on purpose: the records are of the exact answers.
+// as `sidelight explain` prints them. The records are of the exact answers, whatever faults on purpose are on; but the facets
+// of a tessellation are told of, since they are the scene that is drawn.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -48,5 +49,8 @@ std::optional<Lobe> specular_lobe(const Inspection& inspection);
 // Of the view that `pictures` show, by the renderers that drew them. Nothing if no pixel is inspected, or if the tracer's
 // picture is still an earlier view's.
 std::optional<Inspection> inspect_pixel(const WindowState& state, const Pictures& pictures);
+
+// What the words of an inspection leave out of the faults that are on, and what not; empty without any.
+std::string told_of_faults(const Faults& faults);
 
 }  // namespace sidelight

@@ -130,7 +130,7 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
   }
   std::string heading = fmt::format("pixel {},{}: z-buffer {}", inspection.pixel.x, inspection.pixel.y,
                                     color_text(mean_color(inspection.samples, Side::raster)));
-  if (contents.state.faults.any()) heading += "\ntold as without the faults on purpose";
+  if (contents.state.faults.any()) heading += "\n" + told_of_faults(contents.state.faults);
   const float whole = ImGui::GetContentRegionAvail().x, gap = ImGui::GetStyle().ItemSpacing.x;
   // The middle is for the plot; where letters are large the words need it more.
   const bool plotted = box.width() > 900 * canvas.scale();

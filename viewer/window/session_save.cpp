@@ -50,7 +50,9 @@ void Session::copy() {
   if (!state_.inspected) return tell({"inspect a pixel first: click it", false});
   try_to([&] {
     state_.clipboard = explain_command(state_);
-    state_.notice = {"copied: " + state_.clipboard, false};
+    state_.notice = {
+        "copied: " + state_.clipboard + (state_.faults.any() ? " (without the faults on purpose)" : ""),
+        false};
   });
 }
 
