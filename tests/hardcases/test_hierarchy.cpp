@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Hard cases of the hierarchy beside those of tests/raytrace: flat boxes (BVH-3), one bad primitive among good ones
-// (BVH-7) and rays that are not finite (BVH-8).
+// Hard cases of the hierarchy beside those of tests/raytrace: zeros with a sign (BVH-2), flat boxes (BVH-3), one bad
+// primitive among good ones (BVH-7) and rays that are not finite (BVH-8).
 #include <doctest/doctest.h>
 
+#include <array>
 #include <chrono>
 #include <limits>
 
 #include "common/scene/shapes.h"
 #include "raytrace/prepared.h"
+#include "tests/hardcases/relations.h"
 #include "tests/hardcases/result.h"
 #include "tests/support/scenes.h"
 #include "tests/tier.h"
@@ -66,6 +68,60 @@ double seconds_of(const std::function<void()>& work) {
 }
 
 }  // namespace
+
+// Each zero of a direction by itself and both, for every instruction set.
+TEST_CASE("BVH-2: the sign of any zero in a direction changes no hit") {
+  const Scene scene = scene_of(star_sphere(24, 24, 0.5, 2));
+  const Prepared prepared(scene);
+  VisibilityCounts counts;
+  std::uint64_t differing = 0, hits = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = -32; i <= 32; ++i)
+      for (int k = -32; k <= 32; ++k) {
+        Ray ray{glm::dvec3(0), glm::dvec3(0)};
+        ray.origin[axis] = 4;
+        ray.origin[(axis + 1) % 3] = i / 32.0;
+        ray.origin[(axis + 2) % 3] = k / 32.0;
+        ray.direction[axis] = -1;
+        const Hit hit = raytrace::nearest(prepared, ray, kRayStart, counts);
+        hits += hit.found();
+        for (const int negative : {1, 2, 3}) {
+          if (negative & 1) ray.direction[(axis + 1) % 3] = -0.0;
+          if (negative & 2) ray.direction[(axis + 2) % 3] = -0.0;
+          for (const Isa isa : kIsas)
+            differing += machine_has(isa) && raytrace::nearest(prepared, ray, kRayStart, counts,
+                                                               raytrace::Precision::exact, isa) != hit;
+          ray.direction[(axis + 1) % 3] = ray.direction[(axis + 2) % 3] = 0;
+        }
+      }
+  HardCase("BVH-2").none("hits that one -0 or two change, with any instruction set", differing, hits);
+}
+
+// Of normals, the zeros keep their sign.
+TEST_CASE("BVH-2: the sign of zeros in a scene changes no bit of a picture") {
+  const auto signed_zeros = [](double zero) {
+    const auto with = [zero](const glm::dvec3& v) {
+      return glm::dvec3(v.x == 0 ? zero : v.x, v.y == 0 ? zero : v.y, v.z == 0 ? zero : v.z);
+    };
+    return moved(everything(), with, with);
+  };
+  const auto pictures = [](const Scene& scene) {
+    std::array<Frame, 2> both{rastered(scene, relation_camera(scene)), traced(scene, relation_camera(scene))};
+    for (Frame& frame : both)
+      for (glm::vec3& normal : frame.normal) normal += glm::vec3(0);
+    return both;
+  };
+  const Scene plus = signed_zeros(0.0), minus = signed_zeros(-0.0);
+  std::uint64_t zeros = 0;
+  for (const glm::dvec3& p : minus.positions)
+    for (int axis = 0; axis < 3; ++axis) zeros += p[axis] == 0 && std::signbit(p[axis]);
+  CHECK(zeros > 0);
+  const auto a = pictures(plus), b = pictures(minus);
+  CHECK(differences(a[0], b[0]) == "");
+  CHECK(differences(a[1], b[1]) == "");
+  HardCase("BVH-2").holds("a scene's zeros with the other sign give the same pictures",
+                          differences(a[0], b[0]).empty() && differences(a[1], b[1]).empty());
+}
 
 TEST_CASE("BVH-3: flat boxes are met as brute force meets their triangles") {
   const Scene box = scene_of(make_box({2, 2, 2}));  // twelve triangles with flat boxes
