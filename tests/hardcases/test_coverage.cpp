@@ -114,14 +114,18 @@ TEST_CASE("RAS-1: every sample of a jittered partition is covered once") {
   report("RAS-1", "grids of 16 to 512 cells", tally);
 }
 
-// Two triangles on both sides of an edge whose ends, like the apexes, are R pixels away.
+// Two triangles on both sides of an edge whose ends, like the apexes, are R pixels away. Those of R = 100 reach over a
+// small picture only: the sides of the square that they make are 71 pixels from its middle, a corner of the picture 53.
 TEST_CASE("RAS-1: an edge whose ends are up to 1e7 pixels away neither leaks nor overlaps") {
-  const Camera camera = plain_camera(256, 256);
+  const Camera large = plain_camera(256, 256), small = plain_camera(48, 48);
   Random random(78);
   Tally tally;
-  for (std::uint64_t left = frames_of(camera, 5); left > 0; --left)
-    for (const double reach : {1e3, 1e4, 1e5, 1e6, 1e7}) {
-      const double turn = random.uniform(0, 7), x = random.uniform(60, 196), y = random.uniform(60, 196);
+  for (std::uint64_t left = frames_of(large, 5); left > 0; --left)
+    for (const double reach : {1e2, 1e3, 1e4, 1e5, 1e6, 1e7}) {
+      const Camera& camera = reach < 1e3 ? small : large;
+      const double turn = random.uniform(0, 7), middle = 0.5 * camera.width,
+                   aside = middle - 60 / 256.0 * camera.width;
+      const double x = middle + random.uniform(-aside, aside), y = middle + random.uniform(-aside, aside);
       const double depth = random.uniform(1, 2);
       const auto corner = [&](double angle) {
         return seen_at(camera, x + reach * std::cos(angle), y + reach * std::sin(angle), depth);
@@ -132,7 +136,7 @@ TEST_CASE("RAS-1: an edge whose ends are up to 1e7 pixels away neither leaks nor
                               {{0, 2, 1}, {2, 0, 3}}),
                       camera, random, tally);
     }
-  report("RAS-1", "edges with ends 1e3 to 1e7 pixels away", tally);
+  report("RAS-1", "edges with ends 100 to 1e7 pixels away", tally);
 }
 
 // ---- RAS-3 ----
@@ -195,7 +199,9 @@ namespace {
 // A fan around a point of the screen whose rim is `reach` pixels away; a copy of `random` gives the same one again.
 PolygonMesh fan(const Camera& camera, double reach, Random random) {
   constexpr std::uint32_t kCorners = 7;
-  const double x = random.uniform(200, 312), y = random.uniform(200, 312), turn = random.uniform(0, 7);
+  const double middle = 0.5 * camera.width, aside = 56 / 512.0 * camera.width;
+  const double x = middle + random.uniform(-aside, aside), y = middle + random.uniform(-aside, aside);
+  const double turn = random.uniform(0, 7);
   std::vector<glm::dvec3> positions{seen_at(camera, x, y, 1)};
   std::vector<Face> faces;
   for (std::uint32_t i = 0; i < kCorners; ++i) {
@@ -212,25 +218,32 @@ std::uint64_t signs(const Frame& frame) {
 
 }  // namespace
 
+// Those of 300 pixels reach over a small picture only: the sides of the rim are 300 cos(0.63) = 242 from its middle at
+// least, a corner of the picture 166.
 TEST_CASE("RAS-6: fans whose rim is up to 1e7 pixels away") {
-  const Camera camera = plain_camera(512, 512);
+  const Camera large = plain_camera(512, 512), small = plain_camera(192, 192);
   Random random(61);
   Tally tally;
   double most_work = 0;
-  const std::vector<glm::dvec3> screen{seen_at(camera, -9, -9, 1), seen_at(camera, 520, -9, 1),
-                                       seen_at(camera, 520, 520, 1), seen_at(camera, -9, 520, 1)};
-  const double pair =
-      static_cast<double>(signs(rastered(scene_of(mesh_of(screen, {{0, 1, 2}, {0, 2, 3}})), camera)));
-  for (std::uint64_t left = frames_of(camera, 3); left > 0; --left) {
-    for (const double reach : {1e3, 1e4, 1e5, 1e6, 1e7}) {
+  const auto work_of_pair = [&](const Camera& camera) {
+    const double end = camera.width + 8;
+    const std::vector<glm::dvec3> screen{seen_at(camera, -9, -9, 1), seen_at(camera, end, -9, 1),
+                                         seen_at(camera, end, end, 1), seen_at(camera, -9, end, 1)};
+    return static_cast<double>(signs(rastered(scene_of(mesh_of(screen, {{0, 1, 2}, {0, 2, 3}})), camera)));
+  };
+  const double large_pair = work_of_pair(large), small_pair = work_of_pair(small);
+  for (std::uint64_t left = frames_of(large, 3); left > 0; --left) {
+    for (const double reach : {3e2, 1e3, 1e4, 1e5, 1e6, 1e7}) {
+      const Camera& camera = reach < 1e3 ? small : large;
       const PolygonMesh huge = fan(camera, reach, random);
+      const double pair = reach < 1e3 ? small_pair : large_pair;
       most_work = std::max(most_work, static_cast<double>(signs(rastered(scene_of(huge), camera))) / pair);
       Random halves(left);
       judge_partition(huge, camera, halves, tally);
     }
     random.bits();
   }
-  report("RAS-6", "fans with a rim 1e3 to 1e7 pixels away", tally);
+  report("RAS-6", "fans with a rim 300 to 1e7 pixels away", tally);
   // A triangle's box is at most the screen. So seven of them cost at most seven halves of a pair that fills it, wherever
   // their corners are; that a frame of any fan costs at most two such pairs is more than boxes can promise.
   HardCase("RAS-6").at_most(
