@@ -130,10 +130,10 @@ TEST_CASE("PHO-4: vertex normals of any length, opposite, zero and missing") {
 
 namespace {
 
-// A triangle in the plane z = 0, seen from z = 4 or -4, lit along the z axis from the front or the back.
+// A triangle in the plane z = 0, or that plane, seen from z = 4 or -4, lit along the z axis from the front or the back.
 struct TwoSided {
   double eye_side = 1, light_side = 1;
-  bool flipped = false, mirrored = false;
+  bool flipped = false, mirrored = false, plane = false;
 
   Scene scene() const {
     Scene scene;
@@ -144,7 +144,10 @@ struct TwoSided {
     Transform transform;
     if (mirrored) transform.linear = glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1);
     const Face face = flipped ? Face{0, 2, 1} : Face{0, 1, 2};
-    add_mesh(scene, mesh_of({{-3, -2.5, 0}, {3, -2, 0}, {0.25, 3, 0}}, {face}), transform, {});
+    if (plane)
+      add_plane(scene, {{0, 0, 0}, {0, 0, flipped ? -1 : 1}, 0}, {});
+    else
+      add_mesh(scene, mesh_of({{-3, -2.5, 0}, {3, -2, 0}, {0.25, 3, 0}}, {face}), transform, {});
     Light light;
     light.directional = true;
     light.direction = {0, 0, -light_side};
@@ -159,15 +162,15 @@ struct TwoSided {
 }  // namespace
 
 // The table: the side seen turns the normal, and light from the other side does not count. N.L is 1 or -1 here, so a
-// pixel of the triangle is exactly ka Ia + kd = 0.625 where eye and light are on one side, else ka Ia = 0.125.
+// pixel of the triangle or plane is exactly ka Ia + kd = 0.625 where eye and light are on one side, else ka Ia = 0.125.
 TEST_CASE("PHO-5: a face has two sides, lit as it is seen") {
   const HardCase hard("PHO-5");
   std::uint64_t wrong = 0, looked_at = 0, disagreeing = 0, scenes = 0, moved = 0;
   for (const double eye : {1.0, -1.0})
     for (const double light : {1.0, -1.0})
-      for (const bool mirrored : {false, true}) {
-        const LocalPictures one(TwoSided{eye, light, false, mirrored}.scene());
-        const LocalPictures flipped(TwoSided{eye, light, true, mirrored}.scene());
+      for (const auto& [mirrored, plane] : {std::pair(false, false), {true, false}, {false, true}}) {
+        const LocalPictures one(TwoSided{eye, light, false, mirrored, plane}.scene());
+        const LocalPictures flipped(TwoSided{eye, light, true, mirrored, plane}.scene());
         const float expected = eye == light ? 0.625f : 0.125f;
         for (const LocalPictures* each : {&one, &flipped}) {
           ++scenes;
