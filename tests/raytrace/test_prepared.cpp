@@ -89,7 +89,7 @@ TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and 
   Random random(5);
   std::uint64_t differing = 0, wrong_blocker = 0, ties = 0;
   constexpr auto exact = raytrace::Precision::exact;
-  const std::uint64_t scenes = 200, rays = 1 + tier_count("rays_per_case") / (10 * scenes);
+  const std::uint64_t scenes = 200, rays = 1 + tier_count("rays_per_gate") / (5 * scenes);
   for (std::uint64_t i = 0; i < scenes; ++i) {
     const Scene scene = scene_on_grid(random, i % 10 == 0 ? 2000 : 200);
     const Prepared prepared(scene);
