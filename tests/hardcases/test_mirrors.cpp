@@ -92,39 +92,51 @@ Scene smooth_icosphere() {
 
 TEST_CASE("MIR-4: rays double at each level, and what is cut off is what is missing") {
   const HardCase doubling("MIR-4");
-  const int edge = std::min(32, tier_edge() / 40);
+  // 32 x 32 pixels where the tier has rays for as many trees of this size, else fewer.
+  const auto edge_for = [](double rays) {
+    return std::clamp(
+        static_cast<int>(std::sqrt(2 * static_cast<double>(tier_count("rays_per_case")) / rays)), 2, 32);
+  };
   // Without a cut: depth D, at most 2^D - 1 rays a pixel.
   constexpr int kDepth = 10;
   const Scene whole = onion(20, kDepth, 0);
-  const Frame all = test::traced(whole, make_camera(whole.camera, edge, edge, 1));
-  const auto secondary = [](const Frame& frame) {
-    return frame.stats.rays.reflection + frame.stats.rays.refraction;
-  };
-  const auto pixels = static_cast<double>(all.pixels());
-  doubling.at_most("rays a pixel at depth 10", 1 + static_cast<double>(secondary(all)) / pixels,
-                   (1 << kDepth) - 1);
-  CHECK(static_cast<double>(secondary(all)) / pixels > 1 << (kDepth - 3));  // and they do double
+  const Frame all = test::traced(whole, square_camera(whole, edge_for(1 << kDepth)));
+  const double rays = static_cast<double>(all.stats.rays.reflection + all.stats.rays.refraction) /
+                      static_cast<double>(all.pixels());
+  doubling.at_most("rays a pixel at depth 10", 1 + rays, (1 << kDepth) - 1);
+  CHECK(rays > 1 << (kDepth - 3));  // and they do double
 
   // What a picture lacks of the background's 1 is the weight of the rays that were not sent, by depth or by cut. Sums of
   // floats: up to 20 levels of a product and a sum, 2^-24 each.
-  Worst lacking, levels_over;
+  constexpr double kRounding = 20 * 2 * 0x1p-24;
+  Worst lacking, levels_over, error;
   const auto add_lack = [&](const Frame& frame) {
     double sum = 0;
     for (const glm::vec3& c : frame.color) sum += c.x;
-    lacking.add(std::abs(sum / pixels + frame.stats.cut_weight - 1));
+    lacking.add(std::abs(sum / static_cast<double>(frame.pixels()) + frame.stats.cut_weight - 1));
   };
   add_lack(all);
-  for (const double cut : {1e-2, 1e-3}) {
+  for (const double cut : {1e-2, 1e-3, 1e-4}) {
     const Scene scene = onion(20, 20, cut);
-    add_lack(test::traced(scene, square_camera(scene, edge)));
-    // 0.5^levels >= cut
+    const double most = std::floor(std::log(cut) / std::log(0.5));  // 0.5^levels >= cut
+    add_lack(test::traced(scene, square_camera(scene, edge_for(std::exp2(most + 1)))));
+    // In single trees, too, through the middle and at the outline: no level beyond, and what is missing of the 1 that
+    // comes back without a cut is at most the weight `cut` of each branch that was cut.
     const auto prepared = raytrace::Prepared(scene);
-    const double most = std::floor(std::log(cut) / std::log(0.5));
-    for_each_ray(tree_of(prepared, scene.camera.eye, {0.2, 0.3, 0}),
-                 [&](const RayRecord& ray) { levels_over.add(ray.depth - 1 - most); });
+    for (const double aside : {0.0, 0.3, 0.8, 0.95}) {
+      const RayRecord root = tree_of(prepared, scene.camera.eye, {aside, aside / 8, 0});
+      std::uint64_t branches = 0;
+      for_each_ray(root, [&](const RayRecord& ray) {
+        levels_over.add(ray.depth - 1 - most);
+        for (const RayRecord& child : ray.children) branches += !child.sent;
+      });
+      error.add((1 - double{root.color.x} - kRounding) / (static_cast<double>(branches) * cut));
+      CHECK(branches > 0);
+    }
   }
-  doubling.at_most("what a picture lacks, off the weight of rays not sent", lacking, 20 * 2 * 0x1p-24);
+  doubling.at_most("what a picture lacks, off the weight of rays not sent", lacking, kRounding);
   doubling.at_most("levels beyond log(cut)/log(weight)", levels_over, 0);
+  doubling.at_most("what a tree lacks, in units of cut branches times the cut", error, 1);
 }
 
 // At random and at the outline, where interpolated normals send rays below the facet.
@@ -133,7 +145,7 @@ TEST_CASE("MIR-6: no mirror ray of a smooth-shaded icosphere starts below its fa
   const raytrace::Prepared prepared(scene);
   Random random(97);
   std::uint64_t below = 0, again = 0, folded = 0, mirrored = 0;
-  for (std::uint64_t left = tier_count("rays_per_case") / 2; left > 0; --left) {
+  for (std::uint64_t left = tier_count("rays_per_case"); left > 0; --left) {
     const glm::dvec3 eye = 4.0 * random.direction();
     const glm::dvec3 target = (left % 2 ? random.uniform(0.9, 1) : random.uniform()) * across(eye, random);
     const RayRecord root = tree_of(prepared, eye, target);
