@@ -156,6 +156,51 @@ TEST_CASE("MET-5: the centre samples of a picture of odd multiples are the pictu
                static_cast<double>(nowhere) / static_cast<double>(looked_up), 1e-4);
 }
 
+// Light that varies smoothly: over a pixel of width h, f'' h² / 32 lies between the centre and the mean of its 2 x 2
+// parts, 5 f'' h² / 128 of its 4 x 4, for each of two axes; and of its three samples in a row along an axis, h apart, two
+// differ by f'' h² / 2 at least. So centre and mean are at most 10 / 64 of the greatest difference among the pixel and its
+// eight neighbours apart; a quarter leaves room for what is not square in f. Only where all of them show one surface.
+TEST_CASE("MET-5: away from edges the mean of a picture twice or four times as large is the picture") {
+  const Scene scene = local_only(matte(everything()));
+  const int width = 67, height = 49;
+  const Camera camera = make_camera(scene.camera, width, height, 1);
+  std::uint64_t pixels = 0;
+  double worst = 0;
+  const Frame frames[2]{rastered(scene, camera), traced(scene, camera)};
+  for (const int times : {2, 4}) {
+    const Camera larger = make_camera(scene.camera, times * width, times * height, 1);
+    const Frame large[2]{rastered(scene, larger), traced(scene, larger)};
+    for (int which = 0; which < 2; ++which)
+      for (int y = 1; y < height - 1; ++y)
+        for (int x = 1; x < width - 1; ++x) {
+          const Frame& frame = frames[which];
+          const std::size_t i = frame.index(x, y);
+          bool one_surface = true;
+          double low = INFINITY, high = -INFINITY, mean = 0;
+          for (int Y = y - 1; Y <= y + 1; ++Y)
+            for (int X = x - 1; X <= x + 1; ++X) {
+              const std::size_t j = frame.index(X, Y);
+              one_surface = one_surface && frame.primitive_id[j] == frame.primitive_id[i];
+              low = std::min(low, double{frame.color[j].y});
+              high = std::max(high, double{frame.color[j].y});
+            }
+          for (int Y = times * y; Y < times * (y + 1); ++Y)
+            for (int X = times * x; X < times * (x + 1); ++X) {
+              const std::size_t j = large[which].index(X, Y);
+              one_surface = one_surface && large[which].primitive_id[j] == frame.primitive_id[i];
+              mean += double{large[which].color[j].y} / (times * times);
+            }
+          if (!one_surface || low == 0) continue;  // where light begins, it bends
+          ++pixels;
+          worst = std::max(
+              worst, std::abs(mean - double{frame.color[i].y}) / ((high - low) / 4 + 8 * kFloatEps * high));
+        }
+  }
+  const HardCase hard("MET-5");
+  hard.at_least("pixels away from edges", static_cast<double>(pixels), 4 * 1500);
+  hard.at_most("mean of a pixel's parts off its centre, in quarters of the differences around it", worst, 1);
+}
+
 // ---- MET-13 ----
 
 TEST_CASE("MET-13: a shadow ray from A to B is blocked iff that from B to A is") {
