@@ -16,7 +16,7 @@ TEST_CASE("TRI-6: no ray in the plane of triangles meets one, with any instructi
   Random random(61);
   VisibilityCounts counts;
   std::uint64_t hits = 0, rays = 0, shown = 0, pixels = 0;
-  for (std::uint64_t left = 4 + tier_count("rays_per_case") / 5000; left > 0; --left) {
+  for (std::uint64_t left = 4 + tier_count("rays_per_case") / 20'000; left > 0; --left) {
     const glm::dvec3 v0 = random.on_grid(1 << 16), e1 = random.on_grid(1 << 16), e2 = random.on_grid(1 << 16);
     const auto in_plane = [&] {
       return static_cast<double>(random.integer(9)) * e1 + static_cast<double>(random.integer(9)) * e2;
