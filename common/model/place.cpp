@@ -151,8 +151,9 @@ bool may_be_near(const Scene& scene, std::uint32_t triangle, const Ray& ray, con
   return !beyond(v0, v1) && !beyond(v1, v2) && !beyond(v2, v0);
 }
 
-// Whether rays that leave a flat `hit` can meet the other at all: a triangle that lies behind it, or in its plane, they
-// cannot. So the edges of a convex body need nothing.
+// Whether rays that leave a flat `hit` can meet the other at all: a triangle that lies behind it they cannot, so the
+// edges of a convex body need nothing. Nor one in its plane, but for a refracted ray, which goes through: a floor under
+// glass, in a plane through the origin, where the clearance is 0, were not met from that plane.
 bool rises(const Scene& scene, std::uint32_t other, const Ray& ray, const Hit& hit,
            VisibilityCounts& counts) {
   const PrimitiveRef ref = primitive_ref(scene, other);
@@ -160,9 +161,15 @@ bool rises(const Scene& scene, std::uint32_t other, const Ray& ray, const Hit& h
     return true;
   const int front = side_of(scene, hit.primitive, ray.origin, counts);
   const auto& vertex = scene.triangles[ref.index].vertex;
-  return std::any_of(vertex.begin(), vertex.end(), [&](std::uint32_t v) {
-    return side_of(scene, hit.primitive, scene.positions[v], counts) == front;
-  });
+  const auto lies = [&](int side) {
+    return [&, side](std::uint32_t v) {
+      return side_of(scene, hit.primitive, scene.positions[v], counts) == side;
+    };
+  };
+  if (std::any_of(vertex.begin(), vertex.end(), lies(front))) return true;
+  return scene.primitive_object[other] != scene.primitive_object[hit.primitive] &&
+         scene.materials[primitive_material(scene, hit.primitive)].refract != glm::dvec3(0) &&
+         std::all_of(vertex.begin(), vertex.end(), lies(0));
 }
 
 // The side of the surface on which the ray travels just before `hit`: its origin's, unless it crossed it on the way, as
