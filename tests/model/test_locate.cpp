@@ -8,6 +8,7 @@
 
 #include "common/model/place.h"
 #include "common/model/visibility.h"
+#include "tests/support/approx.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 #include "tests/support/wide.h"
@@ -16,11 +17,7 @@
 using namespace sidelight;
 using namespace sidelight::test;
 
-namespace {
-
-constexpr double kU = 0x1p-53;
-
-}  // namespace
+namespace {}  // namespace
 
 // From locate_triangle: E / sum is off by 3 u (quotient, sum of three), so the sum of all by 4 u and the
 // rounding of this test; the point by 12 u reach along the normal, the clearance being 16; the ray's own

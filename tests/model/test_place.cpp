@@ -109,7 +109,7 @@ TEST_CASE("rays that leave an octahedron never meet it again, wherever it is and
       add(all,
           depart(scene_of(octahedron(center, size)), center, size, at + size, [&](const QuadVec& p) -> Quad {
             const QuadVec q = p - quad(center);
-            return (magnitude(q.x) + magnitude(q.y) + magnitude(q.z) - size) / square_root(3);
+            return (magnitude(q.x) + magnitude(q.y) + magnitude(q.z) - size) / square_root(Quad(3));
           }));
     }
   report(all, "an octahedron");

@@ -10,6 +10,7 @@
 
 #include "common/model/visibility.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/approx.h"
 #include "tests/support/scenes.h"
 #include "tests/support/wide.h"
 #include "tests/tier.h"
@@ -19,7 +20,6 @@ using namespace sidelight::test;
 
 namespace {
 
-constexpr double kU = 0x1p-53;
 constexpr double kBound = 0x1p-18;  // visibility.h: relative, at worst
 
 // The bound for this very triangle and ray, from the derivation above depth_plane: a0 . n and d . n are each

@@ -3,12 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <random>
 
 #include "common/picture/frame.h"
 #include "common/scene/scene.h"
 
 namespace sidelight::test {
+
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kInf = std::numeric_limits<float>::infinity();
 
 inline RenderOptions options_with(LayerMask layers, bool keep_samples = false) {
   RenderOptions options;

@@ -16,9 +16,6 @@ using namespace sidelight::test;
 
 namespace {
 
-const float kNan = std::numeric_limits<float>::quiet_NaN();
-const float kInf = std::numeric_limits<float>::infinity();
-
 void check_counts(const Pair& pair, std::uint64_t mismatches, std::uint64_t unexplained,
                   std::size_t lights = 1) {
   const Comparison result = compare(pair.rastered, pair.traced, lights);

@@ -12,12 +12,11 @@
 #include "tests/picture/frames.h"
 
 using namespace sidelight;
-using sidelight::test::options_with;
+using namespace sidelight::test;
 
 namespace {
 
 constexpr Color8 kBlack{};
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 Color8 pixel(const Image8& image, std::size_t i) {
   return {image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]};

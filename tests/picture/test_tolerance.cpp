@@ -6,16 +6,16 @@
 #include <limits>
 
 #include "common/picture/tolerance.h"
+#include "tests/picture/frames.h"
 
 using namespace sidelight;
+using namespace sidelight::test;
 using Differences = std::vector<double>;
 using Picture = std::vector<glm::vec3>;
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 // `over` of `pixels` off by 1, the rest equal.
 Differences off_by_one(std::size_t over, std::size_t pixels) {
@@ -88,7 +88,7 @@ TEST_CASE("tolerance: the hard limit holds for every pixel, however many may be 
 TEST_CASE("tolerance: what is not finite never passes, not even against itself") {
   const glm::vec3 fine(0.5f);
   const Tolerance everything{.fail = kInfinity, .fail_percent = 100, .allow = 1000};
-  for (const float value : {kNan, kFloatInfinity, -kFloatInfinity}) {
+  for (const float value : {kNan, kInf, -kInf}) {
     const glm::vec3 bad(0.5f, value, 0.5f);
     CHECK(channel_difference(bad, fine) == kInfinity);
     CHECK(channel_difference(fine, bad) == kInfinity);

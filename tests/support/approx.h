@@ -15,6 +15,7 @@ namespace sidelight::test {
 
 // From 1 to the next double, and to the next float.
 inline constexpr double kEps = 0x1p-52, kFloatEps = 0x1p-23;
+inline constexpr double kU = 0x1p-53;  // what rounding a double may change it by, relatively
 
 // Equal to any vector whose components are each within `tolerance`, absolutely; never to one with a NaN.
 struct Near {

@@ -10,19 +10,18 @@
 
 using namespace sidelight;
 using namespace sidelight::test;
-using nlohmann::json;
 
 namespace {
 
-json read_json(const Workplace& here, const std::string& name) {
-  return json::parse(read_bytes(here / name));
+nlohmann::json read_json(const Workplace& here, const std::string& name) {
+  return nlohmann::json::parse(read_bytes(here / name));
 }
 
-bool ordered(const json& spread) {
+bool ordered(const nlohmann::json& spread) {
   return 0 <= spread["min"] && spread["min"] <= spread["median"] && spread["median"] <= spread["max"];
 }
 
-void check_error(const json& error) {
+void check_error(const nlohmann::json& error) {
   for (const char* name : {"p999", "mean", "rmse", "relmse"}) CHECK(error[name] >= 0.0);
   CHECK((error["psnr"].is_null() || error["psnr"] > 0));
   CHECK(error["max"]["value"] >= error["p999"]);
@@ -38,7 +37,7 @@ TEST_CASE("bench: bench.json has the names that others rely on") {
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(outcome.err.empty());
-  const json result = read_json(here, "out/bench.json");
+  const nlohmann::json result = read_json(here, "out/bench.json");
   CHECK_FALSE(result["interrupted"].get<bool>());
   CHECK(result["machine"].is_string());
   REQUIRE(result["scenes"].size() == 2);
@@ -46,7 +45,7 @@ TEST_CASE("bench: bench.json has the names that others rely on") {
   CHECK((result["scenes"][0]["width"] == 24 && result["scenes"][0]["height"] == 18));
   CHECK(ordered(result["scenes"][0]["load_ms"]));
   REQUIRE(result["reference"].size() == 2);
-  for (const json& reference : result["reference"]) {
+  for (const nlohmann::json& reference : result["reference"]) {
     CHECK(reference["samples"] >= 16);  // twice as fine as samples=4
     CHECK(reference["finer"].get<bool>());
     CHECK(reference["remaining"] >= 0.0);
@@ -54,7 +53,7 @@ TEST_CASE("bench: bench.json has the names that others rely on") {
   }
   REQUIRE(result["points"].size() == 8);  // two scenes, two renderers, two numbers of samples
   bool any_on_front = false;
-  for (const json& point : result["points"]) {
+  for (const nlohmann::json& point : result["points"]) {
     CHECK((point["scene"] == "good.toml" || point["scene"] == "scenes/02-diffuse.toml"));
     CHECK((point["config"]["renderer"] == "raytrace" || point["config"]["renderer"] == "raster"));
     CHECK(point["config"]["isa"].is_string());
@@ -103,8 +102,8 @@ TEST_CASE("bench: without times equal runs give equal bytes, from the cache or n
   std::filesystem::remove_all(here / "cache");
   CHECK(run("third") == first);
   const std::string text = read_bytes(here / "first/bench.json");
-  const json result = json::parse(text);
-  for (const json& point : result["points"]) {
+  const nlohmann::json result = nlohmann::json::parse(text);
+  for (const nlohmann::json& point : result["points"]) {
     CHECK(point["finished"].get<bool>());
     CHECK(point["on_front"].is_null());
     CHECK_FALSE(point.contains("time_ms"));
@@ -147,15 +146,15 @@ TEST_CASE("bench: interrupted, it keeps and marks what was finished") {
     return read_json(here, "out/bench.json");
   };
   // In the middle of its 100,000 runs, however slow the machine: the reference image is there, and the errors.
-  json result;
+  nlohmann::json result;
   for (int seconds = 3; seconds < 100; seconds *= 2) {
     result = interrupted_after(seconds);
     if (std::ranges::all_of(result["points"],
-                            [](const json& point) { return point["finished"].get<bool>(); }))
+                            [](const nlohmann::json& point) { return point["finished"].get<bool>(); }))
       break;
   }
   CHECK(result["interrupted"].get<bool>());
-  for (const json& point : result["points"]) {
+  for (const nlohmann::json& point : result["points"]) {
     REQUIRE(point["finished"].get<bool>());
     CHECK(point["runs"] >= 1);
     CHECK(point["runs"] < 100000);
@@ -168,8 +167,8 @@ TEST_CASE("bench: interrupted at once, it says so and has nothing to show") {
   process.await_handler(SIGTERM);
   process.send(SIGTERM);
   CHECK(process.wait().code == 130);
-  const json result = read_json(here, "out/bench.json");
+  const nlohmann::json result = read_json(here, "out/bench.json");
   CHECK(result["interrupted"].get<bool>());
   CHECK(result["reference"][0].is_null());
-  for (const json& point : result["points"]) CHECK_FALSE(point["finished"].get<bool>());
+  for (const nlohmann::json& point : result["points"]) CHECK_FALSE(point["finished"].get<bool>());
 }

@@ -15,7 +15,7 @@ using namespace sidelight::test;
 
 namespace {
 
-Frame noise(int width, int height, unsigned seed) {
+Frame noise_frame(int width, int height, unsigned seed) {
   Frame frame = make_frame(width, height, 1, {});
   fill_with_noise(frame, seed);
   return frame;
@@ -43,7 +43,7 @@ Scene small_scene(const std::string& hash) {
 TEST_CASE("cache: what is kept is found, with its notes, and nothing else is") {
   const TemporaryFolder folder;
   const PictureCache cache(folder / "new/deep");
-  const Frame a = noise(7, 5, 1), b = noise(7, 5, 2);
+  const Frame a = noise_frame(7, 5, 1), b = noise_frame(7, 5, 2);
   CHECK_FALSE(finds(cache, "a", a));
   REQUIRE(cache.keep("a", a, {{"depth", "12"}}));
   REQUIRE(cache.keep("b", b, {}));
@@ -58,7 +58,7 @@ TEST_CASE("cache: what is kept is found, with its notes, and nothing else is") {
 TEST_CASE("cache: a damaged file is no file, wherever it is damaged") {
   const TemporaryFolder folder;
   const PictureCache cache(folder / ".");
-  const Frame frame = noise(9, 4, 3);
+  const Frame frame = noise_frame(9, 4, 3);
   REQUIRE(cache.keep("key", frame, {}));
   const std::string path = cache.file_of("key").string(), whole = read_bytes(path);
   for (std::size_t cut = 0; cut < whole.size(); cut += 1 + whole.size() / 16) {
@@ -82,7 +82,7 @@ TEST_CASE("cache: where it cannot be written, or there is none, nothing is kept 
   const TemporaryFolder folder;
   write_bytes(folder / "file", "in the way");
   for (const PictureCache& cache : {PictureCache(folder / "file/cache"), PictureCache("")}) {
-    CHECK_FALSE(cache.keep("a", noise(2, 2, 4), {}));
+    CHECK_FALSE(cache.keep("a", noise_frame(2, 2, 4), {}));
     CHECK_FALSE(cache.find("a", 2, 2).has_value());
   }
 }

@@ -23,12 +23,12 @@ const std::string kHostileName =
 const std::string kLong(1 << 20, 'A');
 
 // The longest line: a message (2000 bytes and a little), its file's name (1000) and its place.
-constexpr std::size_t kLongestLine = 3200;
+constexpr std::size_t kMostOfALine = 3200;
 
 void check_inert(const Outcome& outcome) {
   for (const std::string& text : {outcome.out, outcome.err}) {
     CHECK(harm_in(text) == "");
-    for (const std::string& line : lines(text)) CHECK(line.size() <= kLongestLine);
+    for (const std::string& line : lines(text)) CHECK(line.size() <= kMostOfALine);
   }
 }
 

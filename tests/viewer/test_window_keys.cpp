@@ -11,7 +11,7 @@ using namespace sidelight::test;
 
 namespace {
 
-constexpr glm::ivec2 kWindow{1000, 700};
+constexpr glm::ivec2 kWindowSize{1000, 700};
 
 // A session in a window off screen; `body` calls the function it is given for the frames that the window would draw.
 void with_window(const std::function<void(Session&, Frames&, const std::function<void()>&)>& body) {
@@ -19,11 +19,11 @@ void with_window(const std::function<void(Session&, Frames&, const std::function
   write_bytes(folder / "scene.toml", kGoodScene);
   const SceneOpener open = opener(48, 36);
   Session session(open_state(folder / "scene.toml", open), open);
-  draw_offscreen(kWindow.x, kWindow.y, [&](Canvas& canvas) {
+  draw_offscreen(kWindowSize.x, kWindowSize.y, [&](Canvas& canvas) {
     Frames frames(canvas, session);
     const auto draw = [&] {
       for (int left = 3; left > 0; --left)
-        if (frames.take_pictures() | frames.draw(kWindow, 1)) left = 3;
+        if (frames.take_pictures() | frames.draw(kWindowSize, 1)) left = 3;
     };
     draw();
     body(session, frames, draw);
