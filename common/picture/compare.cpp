@@ -195,7 +195,7 @@ Comparison compare(const Frame& rastered, const Frame& traced, std::size_t light
   result.shadow = sum_up(traced.layer(Layer::shadow));
   result.reflection = sum_up(traced.layer(Layer::reflection));
   result.refraction = sum_up(traced.layer(Layer::refraction));
-  result.metrics = measure(traced.color, rastered.color, result.width, result.height);
+  result.metrics = measure(rastered.color, traced.color, result.width, result.height);
   result.metrics.max.x += rastered.window.x0;
   result.metrics.max.y += rastered.window.y0;
   return result;
