@@ -27,13 +27,14 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-// The first of the nearest names; empty where there is none. Looks at the first 64 bytes of the first 10,000
-// names, so that a hostile file cannot make an error message expensive.
+// The first of the nearest names; empty where there is none. A name cut short, of two letters or more, is one edit away.
+// Looks at the first 64 bytes of the first 10,000 names, so that a hostile file cannot make an error message expensive.
 inline std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known) {
   std::string_view best;
   std::size_t best_distance = std::string_view::npos;
   for (const std::string_view candidate : known.first(std::min<std::size_t>(known.size(), 10'000))) {
-    const std::size_t distance = edit_distance(name.substr(0, 64), candidate.substr(0, 64));
+    const bool cut_short = name.size() > 1 && name != candidate && candidate.starts_with(name);
+    const std::size_t distance = cut_short ? 1 : edit_distance(name.substr(0, 64), candidate.substr(0, 64));
     if (distance >= best_distance) continue;
     best = candidate;
     best_distance = distance;

@@ -31,6 +31,10 @@ class ObjReader {
 
   ObjFile read() {
     for (Word keyword; reader_.next_statement(keyword);) read_statement(keyword);
+    if (!is_obj_ && !skipped_.kinds().empty())
+      throw InputError(
+          skipped_.kinds().front().first,
+          "not one statement of a Wavefront OBJ file, expected v and f; no other kind of mesh is read");
     for (const Skipped::Kind& kind : skipped_.kinds())
       obj_.warnings.push_back(located(kind.first, kind.name + " skipped, here and from here on"));
     if (skipped_.more())
@@ -55,7 +59,10 @@ class ObjReader {
                                                            {"g", &ObjReader::read_nothing},
                                                            {"s", &ObjReader::read_nothing}}};
     for (const Statement& statement : kStatements)
-      if (keyword.text == statement.keyword) return (this->*statement.read)(keyword);
+      if (keyword.text == statement.keyword) {
+        is_obj_ = true;
+        return (this->*statement.read)(keyword);
+      }
     skipped_.add(quoted(keyword) + " statements are", reader_, keyword);
   }
 
@@ -218,6 +225,7 @@ class ObjReader {
   ObjFile obj_;
   std::size_t textures_ = 0;
   Skipped skipped_;
+  bool is_obj_ = false;  // one statement is that of an OBJ file
 
   std::vector<Material> library_;  // of all MTL files
   std::unordered_map<std::string, std::uint32_t> library_number_;

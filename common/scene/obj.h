@@ -2,7 +2,7 @@
 // Wavefront OBJ and MTL: v, vn, vt (read and dropped), f (polygons, negative indices), usemtl, mtllib; o, g, s are
 // accepted. Numbers by std::from_chars, so a double in the file is that double. Every mistake is an InputError with
 // file, line and column: a malformed or non-finite number, an index out of range or zero, a face of fewer than three
-// corners, an unknown material, a missing MTL file.
+// corners, an unknown material, a missing MTL file, statements none of which are of an OBJ file.
 #pragma once
 
 #include <string>

@@ -47,8 +47,10 @@ struct Walk {
 // There is no `key` in `parent` and none may be added.
 [[noreturn]] void fail_missing(const Walk& walk, const toml::node& parent, const std::string& key) {
   if (const auto* array = parent.as_array())
-    walk.fail("there is no element " + in_quotes(key) + ", expected one of " + std::to_string(array->size()) +
-              ", counted from 0");
+    walk.fail("there is no element " + in_quotes(key) + ", expected " +
+              (array->empty()       ? "none: there are none"
+               : array->size() == 1 ? "0, the only one"
+                                    : "0 to " + std::to_string(array->size() - 1)));
   const auto* table = parent.as_table();
   if (!table)
     walk.fail("there is nothing inside a plain value, expected the path to end before " + in_quotes(key));

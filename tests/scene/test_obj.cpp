@@ -129,7 +129,7 @@ TEST_CASE("obj: line ends, tabs, comments and continued lines") {
 TEST_CASE("obj: empty files, files of comments, and a very long line") {
   CHECK(parsed("").mesh.faces.empty());
   CHECK(parsed("# nothing").mesh.faces.empty());
-  CHECK(parsed("\\\n\\").warnings.size() == 1);
+  CHECK(parsed("o a\n\\\n\\").warnings.size() == 1);
   const std::string blanks(1'000'000, ' ');
   CHECK(parsed(kTriangle + "f 1" + blanks + "2" + blanks + "3").mesh.faces.size() == 1);
   CHECK(mistake(kTriangle + "f 1" + blanks + "2" + blanks + "x") ==
@@ -192,6 +192,10 @@ TEST_CASE("obj: mistakes name their line and column") {
       {kTriangle + "f 1 2 3/", "t.obj:4:9: '3/' is not a corner"},
       {kTriangle + "vt 0\nf 1 2 3/1/", "t.obj:5:11: '3/1/' is not a corner"},
       {kTriangle + "vt 0\nvn 0 0 1\nf 1/1/1/1 2 3", "t.obj:6:3: '1/1/1/1' is not a corner"},
+      // other files
+      {"# made by hand\nply\nformat ascii 1.0\nelement vertex 3",
+       "t.obj:2:1: not one statement of a Wavefront OBJ file, expected v and f"},
+      {"solid cube\nfacet normal 0 0 1\nendsolid", "t.obj:1:1: not one statement of a Wavefront OBJ file"},
       // materials
       {"usemtl red", "t.obj:1:8: unknown material 'red', and no mtllib before this line defines any"},
       {"mtllib m.mtl\nusemtl  rde", "t.obj:2:9: unknown material 'rde', the nearest is 'red'"},
@@ -234,7 +238,7 @@ TEST_CASE("obj: what is skipped is named once, where it is first") {
   CHECK(contains(obj.warnings[2], "t.obj:6:1: 'p' statements are skipped"));
   CHECK(contains(obj.warnings[3], "t.obj:7:1: 'curv' statements are skipped"));
 
-  std::string noise;
+  std::string noise = "o noise\n";
   for (int i = 0; i < 1000; ++i) noise += "kind" + std::to_string(i) + " 1 2\n";
   CHECK(parsed(noise).warnings.size() == 17);
 }
@@ -292,6 +296,10 @@ TEST_CASE("nearest_name: fewest edits, first of equals") {
   CHECK(nearest_name("glas", names) == "glass");
   CHECK(nearest_name("glase", names) == "glass");
   CHECK(nearest_name("golden", names) == "gold");
+  CHECK(nearest_name("go", names) == "gold");  // glass is two away, but this is cut short
+  CHECK(nearest_name("cyl", std::vector<std::string_view>{"box", "cylinder"}) == "cylinder");
+  CHECK(nearest_name("c", std::vector<std::string_view>{"box", "cylinder"}) ==
+        "box");  // one letter is no name
   CHECK(nearest_name("", names) == "");
   CHECK(nearest_name("x", {}) == "");
   CHECK(edit_distance("kitten", "sitting") == 3);
