@@ -188,7 +188,31 @@ TEST_CASE("window: all colours of the difference's scale stand in one row, in th
     }
     rows += bin == DifferenceHistogram::kBins;
   }
-  CHECK(rows >= 8);
+  CHECK(rows >= 8);  // of its ten, whose first and last are its frame
+}
+
+TEST_CASE("window: under the difference, too, the colours of the inspected pixel's rays are named") {
+  const Workplace here;
+  WindowState state = open_state(here / "good.toml", opener(48, 36));
+  state.mode = Mode::difference;
+  const Pictures pictures = render_pictures(picture_task(state));
+  const auto rays_named = [&] {
+    const Rect legend = window_layout(state, {1300, 800}, 1).legend;
+    const Image8 window = screenshot(state, pictures, 1300, 800);
+    int pixels = 0;
+    for (int y = legend.y0; y < legend.y1; ++y)
+      for (int x = legend.x0; x < legend.x1; ++x) {
+        const std::uint8_t* const rgb = &window.rgb[3 * static_cast<std::size_t>(y * window.width + x)];
+        for (const SegmentKind kind : {SegmentKind::light_seen, SegmentKind::light_blocked}) {
+          const std::uint32_t color = segment_color(kind);  // red in the lowest byte
+          pixels += rgb[0] == (color & 255) && rgb[1] == (color >> 8 & 255) && rgb[2] == (color >> 16 & 255);
+        }
+      }
+    return pixels;
+  };
+  CHECK(rays_named() == 0);
+  state.inspected = glm::ivec2(24, 18);
+  CHECK(rays_named() > 100);  // a square of some 17
 }
 
 #endif

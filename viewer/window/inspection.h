@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Why the inspected pixel has its colour: the records that both renderers' own code tells (common/model/explanation.h),
-// as `sidelight explain` prints them. The records are of the exact answers, whatever faults on purpose are on; but the facets
-// of a tessellation are told of, since they are the scene that is drawn.
+// as `sidelight explain` prints them. The records are of the exact answers, whatever faults on purpose are on; but the
+// facets of a tessellation are told of, since they are the scene that is drawn.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What the colours mean, in a row under the pictures: the causes with their numbers, or the rays of the inspected pixel. For
-// the signed difference with a histogram over its scale.
+// What the colours mean, in a row under the pictures: the causes with their numbers, the signed difference with a histogram
+// over its scale, the rays of the inspected pixel.
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "viewer/window/canvas.h"
 #include "viewer/window/paint.h"
@@ -63,11 +64,13 @@ std::vector<Entry> difference_entries(const DifferenceHistogram& histogram,
   add(-0.5, "darker", histogram.darker());
   add(0, "equal", histogram.equal);
   add(0.5, "brighter", histogram.brighter());
-  if (histogram.undefined > 0) add(std::nan(""), "not a number", histogram.undefined);
-  if (!comparison) return out;
-  const Metrics& m = comparison->metrics;
-  out.push_back({0, fmt::format("root mean square {:.4g}", m.rms)});
-  out.push_back({0, fmt::format("greatest {:.4g} at {},{}", m.max.value, m.max.x, m.max.y)});
+  if (histogram.undefined > 0) {
+    add(std::nan(""), "not a number", histogram.undefined);
+  } else if (comparison) {
+    const Metrics& m = comparison->metrics;
+    out.push_back({0, fmt::format("root mean square {:.4g}", m.rms)});
+    out.push_back({0, fmt::format("greatest {:.4g} at {},{}", m.max.value, m.max.x, m.max.y)});
+  }
   return out;
 }
 
@@ -84,9 +87,9 @@ std::vector<Entry> ray_entries(const Inspection& inspection) {
 // The longest there can be, for the room that they take.
 std::vector<std::size_t> longest(const WindowState& state) {
   if (state.mode == Mode::causes) return {36, 40, 40, 46};
-  if (state.mode == Mode::difference) return {25, 24, 27, 26, 33};
-  if (!state.inspected) return {};
   std::vector<std::size_t> out;
+  if (state.mode == Mode::difference) out = {25, 24, 27, 26, 33};
+  if (!state.inspected) return out;
   for (const char* name : kSegmentNames) out.push_back(std::string_view(name).size());
   return out;
 }
@@ -152,10 +155,11 @@ void draw_legend(const Canvas& canvas, const WindowContents& contents, const Rec
   std::vector<Entry> entries;
   if (contents.state.mode == Mode::causes) {
     if (contents.finished.finished) entries = cause_entries(contents.state, contents.finished.comparison);
-  } else if (const auto& histogram = contents.shown.histogram) {
-    entries = difference_entries(*histogram, contents.finished.comparison);
-  } else if (contents.inspection) {
-    entries = ray_entries(*contents.inspection);
+  } else {
+    if (const auto& histogram = contents.shown.histogram)
+      entries = difference_entries(*histogram, contents.finished.comparison);
+    if (contents.inspection)
+      std::ranges::move(ray_entries(*contents.inspection), std::back_inserter(entries));
   }
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImFont& font = *canvas.fonts().caption;

@@ -49,7 +49,7 @@ int panel_at(const WindowLayout& layout, glm::dvec2 point);
 // How many rows the parts take that flow: the buttons, the lines of the lesson's text.
 int button_rows(const WindowState& state, int width, double scale);
 int lesson_rows(const WindowState& state, int width, double scale);
-// In device pixels, 0 where there is none; without the histogram, which has words too, if it is to be `brief`.
+// The legend's, in device pixels; 0 where there is none. `brief`: its words only, without the histogram.
 int legend_height(const WindowState& state, int width, double scale, bool brief = false);
 
 // Parts of draw_window, in files of their own. Each is called where its rectangle is not empty.
