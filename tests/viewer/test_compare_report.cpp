@@ -50,7 +50,7 @@ TEST_CASE("compare report: every picture and number is the one that it is said t
   CHECK(contains(page,
                  "3 visibility mismatches, 2 unexplained pixels. First mismatch at pixel 3,1. "
                  "First unexplained pixel at 6,4."));
-  CHECK(contains(page, "0.375 (green at 3,2: 0.5 and 0.875)"));
+  CHECK(contains(page, "0.375 (green at 3,2: 0.5 left, 0.875 right)"));
   CHECK(contains(page, "differ most at pixel 3,2"));
   for (const char* row :
        {"ledger</th><td>0.25</td>", "mean difference</th><td>0.5</td>", "square</th><td>0.75</td>",

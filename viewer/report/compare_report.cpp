@@ -236,7 +236,7 @@ Html numbers(const CompareReport& report) {
        {html("unexplained pixels"), count(result.unexplained)},
        {html("largest residual of the ledger"), html("{:.3g}", result.ledger_max_residual)},
        {html("greatest difference"),
-        html("{:.4g} ({} at {},{}: {:.4g} and {:.4g})", m.max.value,
+        html("{:.4g} ({} at {},{}: {:.4g} left, {:.4g} right)", m.max.value,
              kChannels[static_cast<std::size_t>(m.max.channel)], m.max.x, m.max.y, m.max.a, m.max.b)},
        {html("mean difference"), html("{:.4g}", m.mean)},
        {html("root mean square"), html("{:.4g}", m.rms)},
