@@ -71,7 +71,7 @@ double seconds_of(const std::function<void()>& work) {
 
 // Each zero of a direction by itself and both, for every instruction set.
 TEST_CASE("BVH-2: the sign of any zero in a direction changes no hit") {
-  const Scene scene = scene_of(star_sphere(24, 24, 0.5, 2));
+  const Scene scene = scene_of(star_sphere(24, 24, 1, 2));
   const Prepared prepared(scene);
   VisibilityCounts counts;
   std::uint64_t differing = 0, hits = 0;

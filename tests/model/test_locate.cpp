@@ -17,8 +17,6 @@
 using namespace sidelight;
 using namespace sidelight::test;
 
-namespace {}  // namespace
-
 // From locate_triangle: E / sum is off by 3 u (quotient, sum of three), so the sum of all by 4 u and the
 // rounding of this test; the point by 12 u reach along the normal, the clearance being 16; the ray's own
 // error is not the point's.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The tracer's questions: nearest(), blocker() and hits_between() answer as brute force does, bit for bit,
-// ties and duplicates included (BVH-2, BVH-5).
+// ties and duplicates included (BVH-5).
 #include <doctest/doctest.h>
 
 #include <array>
@@ -62,27 +62,6 @@ bool is_hit_of(const Scene& scene, const Ray& ray, const Hit& hit) {
 }
 
 }  // namespace
-
-// BVH-2
-TEST_CASE("the sign of a zero in a direction changes no hit") {
-  const Scene scene = scene_of(star_sphere(24, 24, 1, 2));
-  const Prepared prepared(scene);
-  VisibilityCounts counts;
-  std::uint64_t differing = 0, hits = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int i = -32; i <= 32; ++i)
-      for (int k = -32; k <= 32; ++k) {
-        glm::dvec3 origin(0), plus(0.0), minus(-0.0);
-        origin[axis] = 4;
-        origin[(axis + 1) % 3] = i / 32.0;
-        origin[(axis + 2) % 3] = k / 32.0;
-        plus[axis] = minus[axis] = -1;
-        const Hit hit = nearest(prepared, {origin, plus}, kRayStart, counts);
-        differing += nearest(prepared, {origin, minus}, kRayStart, counts) != hit;
-        hits += hit.found();
-      }
-  HardCase("BVH-2").none("hits of 65x65 axis-aligned rays a side that a -0 changes", differing, hits);
-}
 
 // BVH-5
 TEST_CASE("nearest is nearest_of_all, bit for bit with ties and duplicates, and blocker agrees with it") {

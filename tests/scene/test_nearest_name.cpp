@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "common/scene/nearest_name.h"
+
+#include <doctest/doctest.h>
+
+using namespace sidelight;
+
+TEST_CASE("nearest_name: fewest edits, first of equals") {
+  const std::vector<std::string_view> names{"glass", "glaze", "gold", ""};
+  CHECK(nearest_name("glas", names) == "glass");
+  CHECK(nearest_name("glase", names) == "glass");
+  CHECK(nearest_name("golden", names) == "gold");
+  CHECK(nearest_name("go", names) == "gold");  // glass is two away, but this is cut short
+  CHECK(nearest_name("cyl", std::vector<std::string_view>{"box", "cylinder"}) == "cylinder");
+  CHECK(nearest_name("c", std::vector<std::string_view>{"box", "cylinder"}) ==
+        "box");  // one letter is no name
+  CHECK(nearest_name("", names) == "");
+  CHECK(nearest_name("x", {}) == "");
+  CHECK(edit_distance("kitten", "sitting") == 3);
+}
