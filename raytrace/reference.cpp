@@ -137,7 +137,8 @@ void Tracer::add_local(const Place& place, const dvec3& from, const Material& ma
     // Facing away from the light, the surface stands in its own: no ray is needed.
     const bool self_shadowed = dot(place.facing, L) <= 0;
     if (self_shadowed) ++stats_.self_shadowed;
-    if (self_shadowed || !sees_light(from, light)) out.shadow += diffuse + specular;
+    const bool b = !self_shadowed && sees_light(from, light);
+    if (!b) out.shadow += diffuse + specular;
   }
   out.color = out.ambient + out.diffuse + out.specular - out.shadow;
 }

@@ -152,8 +152,8 @@ bool may_be_near(const Scene& scene, std::uint32_t triangle, const Ray& ray, con
 }
 
 // Whether rays that leave a flat `hit` can meet the other at all: a triangle that lies behind it they cannot, so the
-// edges of a convex body need nothing. Nor one in its plane, but for a refracted ray, which goes through: a floor under
-// glass, in a plane through the origin, where the clearance is 0, were not met from that plane.
+// edges of a convex body need nothing. Nor can they meet one in its plane, but for a refracted ray, which goes through: in a
+// plane through the origin, where the clearance is 0, it would start in that plane and miss the floor under glass.
 bool rises(const Scene& scene, std::uint32_t other, const Ray& ray, const Hit& hit,
            VisibilityCounts& counts) {
   const PrimitiveRef ref = primitive_ref(scene, other);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The picture of where the tracer is brighter than the z-buffer, and where it is darker; and how many pixels are by how much.
+// The picture of where the tracer is brighter than the z-buffer, and where it is darker; and how many pixels are by how
+// much.
 //
 // The sign is told by hue and by lightness alike, so colour-blind eyes and grey prints keep it: towards yellow and light
 // where the tracer is brighter, towards violet and dark where it is darker, mid grey where both are equally bright.
