@@ -232,7 +232,8 @@ TEST_CASE("DET-4: language, time zone and folder change no byte of a file") {
     made(way, "convert \"$1/good.toml\" \"$1/a.pov\"");
     return read_bytes(here / "a.pov") + made(way, "info \"$1/good.toml\"");
   };
-  const std::string comma = "LOCPATH=\"$1\" LC_ALL=comma", plain = picture("");
+  // glibc 2.36 never frees the list of folders that newlocale makes of LOCPATH, and libraries call newlocale.
+  const std::string comma = "ASAN_OPTIONS=detect_leaks=0 LOCPATH=\"$1\" LC_ALL=comma", plain = picture("");
   std::uint64_t unlike = 0, ways = 0;
   for (const std::string& way : std::vector<std::string>{
            comma, "LC_ALL=C LANG=tr_TR.UTF-8", "LC_ALL=C.UTF-8 TZ=Pacific/Auckland", "TZ=UTC-13",
