@@ -19,8 +19,8 @@
 #include "common/scene/settings.h"
 #include "tests/hardcases/relations.h"
 #include "tests/hardcases/result.h"
+#include "tests/support/program.h"
 #include "tests/support/random.h"
-#include "tests/viewer/program.h"
 
 using namespace sidelight;
 using namespace sidelight::test;

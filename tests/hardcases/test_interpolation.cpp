@@ -6,8 +6,8 @@
 #include "tests/hardcases/result.h"
 #include "tests/support/exact_picture.h"
 #include "tests/support/lit.h"
+#include "tests/support/program.h"
 #include "tests/support/scenes.h"
-#include "tests/viewer/program.h"
 
 using namespace sidelight;
 using namespace sidelight::test;

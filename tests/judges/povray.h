@@ -15,7 +15,7 @@
 
 #include "common/scene/pov.h"
 #include "tests/picture/folder.h"
-#include "tests/viewer/program.h"
+#include "tests/support/program.h"
 
 namespace sidelight::test {
 
