@@ -70,18 +70,23 @@ Labels labels(const Job& job, const TimedFrame& rastered, const TimedFrame& trac
 void write_pictures(const Job& job, const std::string& folder, const TimedFrame& rastered,
                     const TimedFrame& traced) {
   const int width = rastered.frame.width(), height = rastered.frame.height();
-  const Image8 left = picture(rastered.frame), right = picture(traced.frame);
   const Metadata raster_metadata = job_metadata(job, "raster"),
                  trace_metadata = job_metadata(job, "raytrace");
   const Metadata both = job_metadata(job, "raster, raytrace");
-  write_png(folder + "/raster.png", left, raster_metadata);
-  write_png(folder + "/raytrace.png", right, trace_metadata);
-  write_png(folder + "/side_by_side.png", side_by_side(left, right, labels(job, rastered, traced)), both);
+  write_png(folder + "/raster.png", picture(rastered.frame), raster_metadata);
+  write_png(folder + "/raytrace.png", picture(traced.frame), trace_metadata);
   write_png(folder + "/difference.png",
             to_image8(absolute_difference(rastered.frame, traced.frame), width, height), both);
   write_png(folder + "/causes.png", to_image8(cause_map(rastered.frame, traced.frame), width, height), both);
   write_exr(folder + "/raster.exr", rastered.frame, raster_metadata);
   write_exr(folder + "/raytrace.exr", traced.frame, trace_metadata);
+}
+
+void write_side_by_side(const Job& job, const std::string& folder, const TimedFrame& rastered,
+                        const TimedFrame& traced) {
+  const Image8 both =
+      side_by_side(picture(rastered.frame), picture(traced.frame), labels(job, rastered, traced));
+  write_png(folder + "/side_by_side.png", both, job_metadata(job, "raster, raytrace"));
 }
 
 void write_layers(const Job& job, const std::string& folder, const Renderer& renderer, const Frame& frame) {
@@ -181,6 +186,7 @@ int run_compare(const CompareFlags& flags) {
   write_text_file(flags.folder + "/report.html", report(job, result, spoiled, rastered, traced));
   if (flags.all_modes)
     write_all_modes(job, flags.folder + "/modes", raster, rastered.frame, raytrace, traced.frame);
+  write_side_by_side(job, flags.folder, rastered, traced);  // last, since all else needs no OpenGL
   if (!flags.job.quiet) print_summary(job, result, spoiled, printable(flags.folder));
   return result.agrees() ? 0 : 1;
 }

@@ -14,13 +14,13 @@
 #include "viewer/window/window_panels.h"
 
 #ifdef SIDELIGHT_HAVE_OSMESA
-#include <GL/osmesa.h>
-
 #include <algorithm>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <vector>
+
+#include "viewer/window/osmesa.h"
 #endif
 
 namespace sidelight {
@@ -95,8 +95,8 @@ namespace {
 
 struct DestroyOsmesa {
   void operator()(osmesa_context* context) const {
-    OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
-    OSMesaDestroyContext(context);
+    osmesa().make_current(nullptr, nullptr, 0, 0, 0);
+    osmesa().destroy_context(context);
   }
 };
 using OsmesaContext = std::unique_ptr<osmesa_context, DestroyOsmesa>;
@@ -110,7 +110,7 @@ OsmesaContext make_context() {
                             OSMESA_CONTEXT_MINOR_VERSION,
                             3,
                             0};
-  OsmesaContext context(OSMesaCreateContextAttribs(attributes, nullptr));
+  OsmesaContext context(osmesa().create_context(attributes, nullptr));
   if (!context) throw OutputError("nothing can be drawn off screen: OSMesa has no OpenGL 3.3 core context");
   return context;
 }
@@ -124,11 +124,11 @@ Image8 without_alpha(const std::vector<std::uint8_t>& rgba, int width, int heigh
 Image8 draw_on_this_thread(int width, int height, const std::function<void(Canvas&)>& draw) {
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const OsmesaContext context = make_context();
-  if (OSMesaMakeCurrent(context.get(), rgba.data(), GL_UNSIGNED_BYTE, width, height) == 0)
+  if (osmesa().make_current(context.get(), rgba.data(), GL_UNSIGNED_BYTE, width, height) == 0)
     throw OutputError("nothing can be drawn off screen: OSMesa cannot draw into " + std::to_string(width) +
                       "x" + std::to_string(height));
-  OSMesaPixelStore(OSMESA_Y_UP, 0);  // top row first
-  Canvas canvas(OSMesaGetProcAddress);
+  osmesa().pixel_store(OSMESA_Y_UP, 0);  // top row first
+  Canvas canvas(osmesa().get_proc_address);
   draw(canvas);
   canvas.finish();
   return without_alpha(rgba, width, height);

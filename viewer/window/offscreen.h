@@ -7,7 +7,7 @@
 // equal bytes.
 //
 // Where the program was built without OSMesa (Mesa 25.1 dropped it), each function throws UsageError saying so; where
-// OSMesa has no OpenGL 3.3, OutputError.
+// OSMesa cannot be loaded or has no OpenGL 3.3, OutputError.
 #pragma once
 
 #include <functional>

@@ -35,3 +35,25 @@ TEST_CASE("surroundings: demo.sh through a link, from a folder with a space, wit
   CHECK(dead.code == 0);
   CHECK(dead.err.find("no window: ") != std::string::npos);
 }
+
+#ifdef SIDELIGHT_HAVE_OSMESA
+TEST_CASE("surroundings: without OSMesa's library nothing is drawn off screen, and all else is as ever") {
+  const Workplace here;
+  std::filesystem::create_directory(here / "broken");
+  write_bytes(here / "broken/libOSMesa.so.8", "");
+  const std::string broken = "LD_LIBRARY_PATH=broken \"$0\" \"$@\"";
+  CHECK(here.run_in_shell(broken, {"render", "good.toml", "-r", "8x6", "-q", "-o", "a.png"}).code == 0);
+  const Outcome drawn =
+      here.run_in_shell(broken, {"view", "good.toml", "-r", "8x6", "--screenshot", "b.png"});
+  CHECK(drawn.code == 7);
+  CHECK(drawn.err.find("nothing can be drawn off screen: ") != std::string::npos);
+  CHECK(drawn.err.find("libOSMesa.so.8") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(here / "b.png"));
+  // The comparison but for the one picture.
+  CHECK(here.run_in_shell(broken, {"compare", "good.toml", "-r", "8x6", "-q", "-o", "c"}).code == 7);
+  CHECK(here.run({"compare", "good.toml", "-r", "8x6", "-q", "-o", "d"}).code == 0);
+  std::vector<std::string> all = here.names("d");
+  std::erase(all, "side_by_side.png");
+  CHECK(here.names("c") == all);
+}
+#endif
