@@ -25,12 +25,6 @@ bool is_outside(const Bounds& bounds, const Light& light) {
   return false;
 }
 
-Enclosures::Enclosures(const Prepared& prepared) : prepared_(prepared) {
-  for (const Light& light : prepared.scene.lights)
-    for (std::size_t i = 0; i < solids(); ++i)
-      hidden_.push_back(prepared.shuts_in[i] != 0 && is_outside(prepared.bounds[i], light));
-}
-
 std::uint32_t Enclosures::around(const glm::dvec3& from, const Media& media, bool lone) const {
   const std::uint32_t current = media.current();
   if (current == kNone) return kNone;

@@ -8,8 +8,6 @@
 // does not change, either.
 #pragma once
 
-#include <vector>
-
 #include "raytrace/media.h"
 
 namespace sidelight::raytrace {
@@ -23,21 +21,19 @@ bool is_outside(const Bounds& bounds, const Light& light);
 
 class Enclosures {
  public:
-  explicit Enclosures(const Prepared& prepared);
+  explicit Enclosures(const Prepared& prepared) : prepared_(prepared) {}
 
   // The solid, as its place in Prepared::solids, that surely contains a point from which rays leave a hit in this medium;
   // kNone if that is not known. `lone`: whether the hit is (lone_hit.h).
   std::uint32_t around(const glm::dvec3& from, const Media& media, bool lone) const;
   // Whether the light is hidden from all that lies within the solid; not from kNone.
   bool hide(std::uint32_t solid, std::size_t light) const {
-    return solid != kNone && hidden_[light * solids() + solid] != 0;
+    return solid != kNone && prepared_.shuts_in[solid] != 0 &&
+           is_outside(prepared_.bounds[solid], prepared_.scene.lights[light]);
   }
 
  private:
-  std::size_t solids() const { return prepared_.solids.size(); }
-
   const Prepared& prepared_;
-  std::vector<std::uint8_t> hidden_;  // light by light, of each solid
 };
 
 }  // namespace sidelight::raytrace
