@@ -21,6 +21,7 @@ int run_convert(const ConvertFlags& flags) {
     throw UsageError("OUT wants a file that ends in .pov; got '" + flags.output + "'");
   if (flags.job.spp != 1 || !flags.job.crop.empty())
     throw UsageError("convert takes no --spp and no --crop: sampling is for POV-Ray's own options to say");
+  check_apart("SCENE", flags.job.scene, "OUT", flags.output);
   const Job job = load_job(flags.job);
   if (!flags.job.quiet)
     for (const PovLimit& limit : pov_limits(job.scene))

@@ -68,6 +68,9 @@ TEST_CASE("command line: what is written does not take the place of what is read
   refuse(here, render_small({"-o", "c.png", "--stats", here_too}), "SCENE and --stats want two files");
   refuse(here, {"explain", "good.toml", "--pixel", "1,1", "--json", "good.toml"}, "SCENE and --json");
   refuse(here, {"view", "good.toml", "--frame-log", "good.toml"}, "SCENE and --frame-log");
+  write_bytes(here / "good.pov", kGoodScene);  // what its name says does not matter
+  refuse(here, {"convert", "good.pov", "./good.pov"}, "SCENE and OUT want two files");
+  CHECK(read_bytes(here / "good.pov") == kGoodScene);
   refuse(here, {"diff", "a.png", "b.png", "-o", "a.png"}, "A and -o want two files");
   refuse(here, {"diff", "a.png", "b.png", "-o", "b.png"}, "B and -o want two files");
   refuse(here, {"diff", "a.png", "b.png", "--json", "b.png"}, "B and --json want two files");
