@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <span>
 
 #include "common/picture/layer_picture.h"
@@ -82,11 +84,23 @@ void write_pictures(const Job& job, const std::string& folder, const TimedFrame&
   write_exr(folder + "/raytrace.exr", traced.frame, trace_metadata);
 }
 
-void write_side_by_side(const Job& job, const std::string& folder, const TimedFrame& rastered,
+// Whether it was; pictures that are too large to be drawn beside each other are left out. One of an earlier run goes.
+bool write_side_by_side(const Job& job, const std::string& folder, const TimedFrame& rastered,
                         const TimedFrame& traced) {
-  const Image8 both =
-      side_by_side(picture(rastered.frame), picture(traced.frame), labels(job, rastered, traced));
-  write_png(folder + "/side_by_side.png", both, job_metadata(job, "raster, raytrace"));
+  const std::string file = folder + "/side_by_side.png";
+  std::error_code none_there;
+  std::filesystem::remove(file, none_there);
+  const Labels words = labels(job, rastered, traced);
+  const glm::ivec2 size = side_by_side_size({traced.frame.width(), traced.frame.height()}, words);
+  if (std::max(size.x, size.y) > kLongestOffscreen) {
+    if (!job.flags.quiet)
+      fmt::print(stderr, "no side_by_side.png, which would be {}x{}: sides are up to {}\n", size.x, size.y,
+                 kLongestOffscreen);
+    return false;
+  }
+  const Image8 both = side_by_side(picture(rastered.frame), picture(traced.frame), words);
+  write_png(file, both, job_metadata(job, "raster, raytrace"));
+  return true;
 }
 
 void write_layers(const Job& job, const std::string& folder, const Renderer& renderer, const Frame& frame) {
@@ -144,8 +158,7 @@ std::string report(const Job& job, const Comparison& result, const Spoiled& spoi
 }
 
 // What a person wants to read first; on stderr, as stdout is for data.
-void print_summary(const Job& job, const Comparison& result, const Spoiled& spoiled,
-                   const std::string& folder) {
+void print_summary(const Job& job, const Comparison& result, const Spoiled& spoiled) {
   fmt::print(stderr, "{}x{}: {} visibility mismatches, {} unexplained pixels\n", result.width, result.height,
              result.visibility_mismatches, result.unexplained);
   const auto line = [](const char* name, const Cause& cause) {
@@ -165,7 +178,6 @@ void print_summary(const Job& job, const Comparison& result, const Spoiled& spoi
     fmt::print(stderr, "  first mismatch at pixel {},{}\n", result.mismatch_x, result.mismatch_y);
   if (result.unexplained > 0)
     fmt::print(stderr, "  first unexplained pixel at {},{}\n", result.unexplained_x, result.unexplained_y);
-  fmt::print(stderr, "wrote {}/report.html, side_by_side.png, causes.png, compare.json and more\n", folder);
 }
 
 int run_compare(const CompareFlags& flags) {
@@ -186,8 +198,12 @@ int run_compare(const CompareFlags& flags) {
   write_text_file(flags.folder + "/report.html", report(job, result, spoiled, rastered, traced));
   if (flags.all_modes)
     write_all_modes(job, flags.folder + "/modes", raster, rastered.frame, raytrace, traced.frame);
-  write_side_by_side(job, flags.folder, rastered, traced);  // last, since all else needs no OpenGL
-  if (!flags.job.quiet) print_summary(job, result, spoiled, printable(flags.folder));
+  if (!flags.job.quiet) print_summary(job, result, spoiled);
+  const bool both =
+      write_side_by_side(job, flags.folder, rastered, traced);  // last: all else needs no OpenGL
+  if (!flags.job.quiet)
+    fmt::print(stderr, "wrote {}/report.html, {}causes.png, compare.json and more\n", printable(flags.folder),
+               both ? "side_by_side.png, " : "");
   return result.agrees() ? 0 : 1;
 }
 

@@ -211,22 +211,27 @@ bool fits_memory(const Scene& scene, int n, const RenderOptions& options, int pa
 }
 
 Metadata job_metadata(const Job& job, const std::string& renderer) {
-  const TraceSettings& trace = job.scene.trace;
+  return picture_metadata(job.flags, job.scene, job.options.faults, renderer);
+}
+
+Metadata picture_metadata(const JobFlags& flags, const Scene& scene, const Faults& faults,
+                          const std::string& renderer) {
+  const TraceSettings& trace = scene.trace;
   const auto on = [](bool value) { return std::string(value ? "on" : "off"); };
   Metadata metadata{{"program", "sidelight " SIDELIGHT_VERSION},
                     {"renderer", renderer},
-                    {"scene", printable(job.flags.scene, 1000)},
-                    {"scene_hash", job.scene.hash},
-                    {"title", printable(job.scene.title, 1000)},
-                    {"size", fmt::format("{}x{}", job.scene.width, job.scene.height)},
-                    {"samples_per_pixel", std::to_string(job.flags.spp)},
+                    {"scene", printable(flags.scene, 1000)},
+                    {"scene_hash", scene.hash},
+                    {"title", printable(scene.title, 1000)},
+                    {"size", fmt::format("{}x{}", scene.width, scene.height)},
+                    {"samples_per_pixel", std::to_string(flags.spp)},
                     {"depth", std::to_string(trace.depth)},
                     {"contribution_cut", fmt::format("{}", trace.contribution_cut)},
                     {"shadows", on(trace.shadows)},
                     {"reflection", on(trace.reflection)},
                     {"refraction", on(trace.refraction)}};
-  if (job.flags.from_raster()) metadata.emplace_back("primary", job.flags.primary);
-  if (job.options.faults.any()) metadata.emplace_back("faults", job.options.faults.text());
+  if (flags.from_raster()) metadata.emplace_back("primary", flags.primary);
+  if (faults.any()) metadata.emplace_back("faults", faults.text());
   return metadata;
 }
 

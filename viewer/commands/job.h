@@ -80,6 +80,9 @@ bool fits_memory(const Scene& scene, int n, const RenderOptions& options, int pa
 
 // The settings of the job, for a picture's metadata: scene, hash, size, samples, depth, switches, version.
 Metadata job_metadata(const Job& job, const std::string& renderer);
+// The same of a scene that was changed since it was loaded, and of the samples and surfaces that `flags` asks for.
+Metadata picture_metadata(const JobFlags& flags, const Scene& scene, const Faults& faults,
+                          const std::string& renderer);
 
 // What to type into a shell to run `verb` on the scene as this job renders it: "sidelight explain scene.toml --spp 4".
 // The crop is left out, since pixels count from the whole picture's corner.

@@ -93,10 +93,10 @@ int run_view(const ViewFlags& flags) {
     }
     return code;
   }
-  const Job job = load_job(opening);  // for the metadata
+  opening.spp = state.n * state.n;
   const Pictures pictures = render_pictures(picture_task(state));
   write_png(flags.screenshot, screenshot(state, pictures, window.x, window.y),
-            job_metadata(job, "raster, raytrace"));
+            picture_metadata(opening, *state.scene, state.faults, "raster, raytrace"));
   // The window shows such a picture, too; but who asked for one without looking must learn of it.
   check_finite(*pictures.rastered, "z-buffer");
   check_finite(*pictures.traced, "ray tracer");
@@ -112,8 +112,9 @@ void add_view_command(CLI::App& app, int& exit_code) {
   add_job_flags(*verb, flags->job);
   add_fault_flags(*verb, flags->job.faults);
   const std::vector<std::string> modes(kStepModes.begin(), kStepModes.end());
-  verb->add_option("--mode", flags->mode,
-                   "first: side-by-side, swipe, flip, difference, causes, ledger, or a layer")
+  verb->add_option(
+          "--mode", flags->mode,
+          "first: side-by-side, raster, raytrace, swipe, flip, difference, causes, ledger, or a layer")
       ->type_name("NAME")
       ->check(CLI::IsMember(modes).description(""));
   verb->add_option("--step", flags->step, "the lesson's step N is shown first")

@@ -61,13 +61,18 @@ void draw_comparison(const Canvas& canvas, ImTextureID left, ImTextureID right, 
 Image8 side_by_side(const Image8& left, const Image8& right, const Labels& labels) {
   check_pictures(left, right);
   const LayoutOptions options = layout_options(labels);
-  const glm::ivec2 picture(left.width, left.height), size = layout_size(panel_for(picture, options), options);
+  const glm::ivec2 picture(left.width, left.height), size = side_by_side_size(picture, labels);
   return draw_offscreen(size.x, size.y, [&](Canvas& canvas) {
     const ImTextureID at_left = canvas.add_picture(left), at_right = canvas.add_picture(right);
     canvas.draw(size.x, size.y, [&] {
       draw_comparison(canvas, at_left, at_right, picture, labels, make_layout(size, options));
     });
   });
+}
+
+glm::ivec2 side_by_side_size(glm::ivec2 picture, const Labels& labels) {
+  const LayoutOptions options = layout_options(labels);
+  return layout_size(panel_for(picture, options), options);
 }
 
 Image8 screenshot(const WindowState& state, const Pictures& pictures, int width, int height) {

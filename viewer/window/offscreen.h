@@ -11,6 +11,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/vec2.hpp>
 
 #include "common/picture/image_io.h"
 #include "viewer/window/panels.h"
@@ -29,6 +30,9 @@ Image8 draw_offscreen(int width, int height, const std::function<void(Canvas&)>&
 // Both pictures at zoom 1, their own bytes, with title and captions; the size follows from the pictures.
 // Throws std::invalid_argument unless the pictures have one size.
 Image8 side_by_side(const Image8& left, const Image8& right, const Labels& labels);
+
+// The size of that, for pictures of size `picture`.
+glm::ivec2 side_by_side_size(glm::ivec2 picture, const Labels& labels);
 
 // What a window of this size shows of the state, with everything drawn to the end: the window's own pixels.
 Image8 screenshot(const WindowState& state, const Pictures& pictures, int width, int height);
