@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "common/scene/tessellate.h"
 
+#include <string>
+
+#include "common/error.h"
 #include "common/scene/build.h"
+#include "common/scene/limits.h"
 #include "common/scene/shapes.h"
 
 namespace sidelight {
@@ -19,16 +23,30 @@ void copy_mesh(const Scene& from, const Object& object, Scene& to) {
   to.objects.push_back(copy);
 }
 
+void check_capacity(const Scene& scene, std::uint64_t of_sphere) {
+  std::uint64_t total = 0;
+  for (const Object& object : scene.objects) {
+    total += object.kind == ObjectKind::sphere ? of_sphere : object.count;
+    if (total > kMaxPrimitives)
+      throw InputError(object.where, "with its spheres tessellated the scene reaches " +
+                                         std::to_string(total) + " primitives here, expected at most " +
+                                         std::to_string(kMaxPrimitives));
+  }
+}
+
 }  // namespace
 
 Scene tessellated(const Scene& scene, int segments) {
+  PolygonMesh ball = make_sphere_mesh(segments);
+  std::uint64_t triangles = 0;
+  for (const PolygonMesh::Face& face : ball.faces) triangles += face.count - 2;
+  check_capacity(scene, triangles);
   Scene out = scene;  // positions and normals keep their numbers, so copied triangles stay right
   out.spheres.clear();
   out.planes.clear();
   out.triangles.clear();
   out.objects.clear();
   out.primitive_object.clear();
-  PolygonMesh ball = make_sphere_mesh(segments);
   for (const Object& object : scene.objects) {
     if (object.kind == ObjectKind::mesh) {
       copy_mesh(scene, object, out);

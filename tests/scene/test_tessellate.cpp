@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include "common/error.h"
+#include "common/scene/limits.h"
 #include "tests/support/scenes.h"
 
 using namespace sidelight;
@@ -52,4 +54,24 @@ TEST_CASE("tessellated: objects and materials keep their numbers, primitives are
   CHECK(out.primitive_object.size() == 8 + 48 + 1 + 8);
   const auto last = [](const Scene& s) { return s.positions[s.triangles.back().vertex[2]]; };
   CHECK(last(out) == last(scene));
+}
+
+TEST_CASE(
+    "tessellated: more primitives than a scene may have are refused at the object that is one too many") {
+  const auto ball = [](Scene& scene) { add_sphere(scene, Sphere{{0, 0, 0}, 1}, {"balls.toml", 7, 1}); };
+  Scene scene;
+  add_material(scene, {});
+  ball(scene);
+  add_mesh(scene, test::octahedron({5, 0, 0}, 1), {}, {"balls.toml", 9, 1});
+  CHECK(tessellated(scene, 8).primitive_object.size() == 48 + 8);
+  // As if the mesh were as large as it may be: nothing of it is read before it is refused.
+  scene.objects[1].count = static_cast<std::uint32_t>(kMaxPrimitives) - 47;
+  try {
+    tessellated(scene, 8);
+    FAIL("not refused");
+  } catch (const InputError& error) {
+    CHECK(std::string(error.what()).find("balls.toml:9:1: ") == 0);
+    CHECK(std::string(error.what()).find(std::to_string(kMaxPrimitives + 1) + " primitives") !=
+          std::string::npos);
+  }
 }
