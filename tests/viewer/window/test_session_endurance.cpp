@@ -3,14 +3,13 @@
 // seeded hand. Nothing may fail, and memory may not grow. Without a display: the frames are drawn off screen, or in
 // sanitized builds, whose tools know nothing of the OpenGL driver, only prepared.
 #include <doctest/doctest.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <iostream>
 #include <random>
 
 #include "common/clock.h"
 #include "common/scene/step_modes.h"
+#include "tests/support/memory.h"
 #include "tests/tier.h"
 #include "tests/viewer/window/session.h"
 #include "viewer/window/frames.h"
@@ -23,12 +22,7 @@ namespace {
 
 constexpr glm::ivec2 kPicture{200, 150}, kWindow{1000, 600};
 
-double resident_mb() {
-  std::ifstream file("/proc/self/statm");
-  double total = 0, resident = 0;
-  file >> total >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
-}
+double resident_mb() { return static_cast<double>(resident_bytes()) / (1 << 20); }
 
 // Two scenes beside each other, the first with a lesson and a mesh in a file of its own.
 class Folder {
