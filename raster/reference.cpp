@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The z-buffer as the lecture has it: for each object, for each pixel it covers, keep the nearest; then light what
 // is visible by the local model. In double, one sample at a time, never optimised: the text to read first, and the
-// oracle of render(). It shares with the fast code the scene, the camera and visibility, and nothing else.
+// oracle of render(). It shares with the fast code the scene, the camera, visibility, where a hit is (place.h), and how
+// samples become a pixel (pixel.h); the local model is written out here once more, on purpose.
 //
 // The lecture says "greater z is nearer" and scans polygons line by line. Here the depth t is the distance along the
 // sample's ray, so the smaller is the nearer; and a sample asks whether its ray meets the polygon, which needs no

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Recursive ray tracing as the lecture has it, by brute force, in double, never optimised: the text to read first,
-// and the oracle of render(). It shares with the fast code the scene, the camera and visibility; the local model,
-// reflection, refraction, attenuation, media and the recursion are written out here once more, on purpose.
+// and the oracle of render(). It shares with the fast code the scene, the camera, visibility, where hits are and rays leave
+// them (place.h), and how samples become a pixel (pixel.h); the local model, reflection, refraction, attenuation, media
+// and the recursion are written out here once more, on purpose.
 //
 //   trace(ray) = c1 local + c2 w(r) trace(reflected) + c3 w(r) trace(refracted)
 //

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The surface at a hit, as the fast renderers use it: where it is, its normals, its material. In double; the local
-// model rounds to float from here (shading.h). The references work this out for themselves.
+// model rounds to float from here (shading.h). The references take only the place (place.h), and work out the normal and
+// the material for themselves.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From samples to a pixel of a Frame: the one place where means are taken and channels are filled, so that equal
-// samples give equal pixels whoever made them.
+// From samples to a pixel of a Frame, for who makes them one by one. Equal samples give equal pixels whoever made them:
+// TilePixels (tile_pixels.h) does the same for those that stand in arrays.
 #pragma once
 
 #include <array>

@@ -18,8 +18,6 @@ namespace {
 
 constexpr std::size_t kMaxSteps = 100;  // each is checked by reading the scene once more
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 // --- Objects -----------------------------------------------------------------------------------------------------
 
 // One table of an object, before it is read.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/scene/scene.h"
+#include "common/scene/settings.h"
 
 namespace sidelight {
 
@@ -15,10 +16,10 @@ Scene load_scene(const std::string& path);
 // The same from text in memory; `path` stands in messages and anchors relative mesh files.
 Scene parse_scene(const std::string& text, const std::string& path);
 
-// Sets one value of a scene file's text by its key path ("trace.depth" = "1"), as a lesson's step does, and returns
-// the scene that results. `files`, where given, receives the names of all files that were read: the scene's, then those
-// of its meshes. Throws InputError as load_scene does.
-Scene load_scene_with(const std::string& path, const std::vector<std::pair<std::string, std::string>>& set,
+// The same with values of the file replaced, each by its key path ("trace.depth" = "1"), as a lesson's step does; the file
+// itself stays as it is. `files`, where given, receives the names of all files that were read: the scene's, then those of
+// its meshes. With any value replaced the lesson's steps are not tried, as load_scene does: they are for the file as it is.
+Scene load_scene_with(const std::string& path, const Settings& set,
                       std::vector<std::string>* files = nullptr);
 
 }  // namespace sidelight

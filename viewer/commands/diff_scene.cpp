@@ -68,7 +68,7 @@ std::optional<Terms> change_that_fits(const OurPictures& ours, const PicturePair
 
 // "ours without the shadow and the reflection"
 std::string change_text(Terms change, bool raster, bool coded) {
-  if (change == kNoTerms) return coded ? "ours within one 8-bit step" : "ours within 0.001";
+  if (change == kNoTerms) return coded ? "ours within one 8-bit step" : "ours within a thousandth";
   std::vector<std::string> names;
   for (std::size_t t = 0; t < kCauseNames.size(); ++t)
     if (change >> t & 1) names.push_back(std::string("the ") + kCauseNames[t]);

@@ -112,9 +112,8 @@ void add_view_command(CLI::App& app, int& exit_code) {
   add_job_flags(*verb, flags->job);
   add_fault_flags(*verb, flags->job.faults);
   const std::vector<std::string> modes(kStepModes.begin(), kStepModes.end());
-  verb->add_option(
-          "--mode", flags->mode,
-          "first: side-by-side, raster, raytrace, swipe, flip, difference, causes, ledger, or a layer")
+  verb->add_option("--mode", flags->mode,
+                   "first: side-by-side, swipe, flip, difference, causes, ledger, renderer, layer")
       ->type_name("NAME")
       ->check(CLI::IsMember(modes).description(""));
   verb->add_option("--step", flags->step, "the lesson's step N is shown first")

@@ -223,7 +223,7 @@ TEST_CASE("diff with a scene: 16-bit floats are near, and alpha is left out") {
   REQUIRE(here.command({"oiiotool", "theirs.exr", "-d", "half", "-o", "half.exr"}).code == 0);
   const Json json = account(here, "good.toml", {}, "half.exr");
   CHECK(json["over"].get<int>() > 0);
-  CHECK(json["reasons"] == Json::array({{{"equals", "ours within 0.001"}, {"pixels", json["over"]}}}));
+  CHECK(json["reasons"] == Json::array({{{"equals", "ours within a thousandth"}, {"pixels", json["over"]}}}));
   CHECK(here.run({"diff", "half.exr", "good.toml", "--fail", "0.001"}).code == 0);
   // Of bright colours it is the thousandth part.
   write_bytes(here / "bright.toml", "background = 30.01\n" + kGoodScene);
