@@ -106,6 +106,17 @@ std::string unexpected(CLI::App& verb) {
   return fmt::format("{}: there is no '{}'; {}", verb.get_name(), name, did_you_mean(name, known));
 }
 
+// What a signal made fail failed because of it.
+void parse(CLI::App& app, int argc, char** argv) {
+  try {
+    if (argc > 1) check_verb(app, argv[1]);
+    app.parse(argc, argv);
+  } catch (...) {
+    stop_if_interrupted();
+    throw;
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "sidelight renders one scene by z-buffer and by ray tracing, and accounts for every difference.",
@@ -130,8 +141,7 @@ int run(int argc, char** argv) {
   refuse_empty_values(app);
 
   try {
-    if (argc > 1) check_verb(app, argv[1]);
-    app.parse(argc, argv);
+    parse(app, argc, argv);
     return all_written(exit_code);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return all_written(app.exit(error));  // --help, --version

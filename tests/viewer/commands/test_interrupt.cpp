@@ -63,6 +63,12 @@ TEST_CASE("exit code 130: interrupted while the scene is read, where nothing wou
   for (const int signal : {SIGINT, SIGTERM}) interrupt(here, {"info", "large.toml"}, signal, {});
 }
 
+TEST_CASE("exit code 130: interrupted while it waits for who writes its scene") {
+  const Workplace here;
+  REQUIRE(here.command({"mkfifo", "pipe.toml"}).code == 0);
+  for (const int signal : {SIGINT, SIGTERM}) interrupt(here, {"info", "pipe.toml"}, signal, kWorking);
+}
+
 TEST_CASE("exit code 130: interrupted while a scene for POV-Ray is written, which leaves none") {
   const Workplace here;
   write_large_scene(here);
