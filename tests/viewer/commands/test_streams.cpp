@@ -36,9 +36,12 @@ void write_warned_scene(const Workplace& here) {
   write_bytes(here / "warned.toml", kGoodScene + "[[mesh]]\nfile = 'm.obj'\nmaterial = 'red'\n");
 }
 
-// With its output on a terminal of 80 columns; what it shows there.
-Outcome on_terminal(const Workplace& here, const std::string& arguments) {
-  return here.command({"script", "-qec", "'" SIDELIGHT_BINARY "' " + arguments, "/dev/null"});
+// With its output on a terminal of so many columns; what it shows there.
+Outcome on_terminal(const Workplace& here, const std::string& arguments, int columns = 80,
+                    const std::string& kind = "xterm") {
+  const std::string command =
+      "stty cols " + std::to_string(columns) + "; TERM=" + kind + " exec '" SIDELIGHT_BINARY "' " + arguments;
+  return here.command({"script", "-qec", command, "/dev/null"});
 }
 
 }  // namespace
@@ -89,10 +92,30 @@ TEST_CASE("streams: on a terminal a bar that is gone at the end, and none with -
   const std::string erased = "\r\x1B[K";
   CHECK(shown.out.substr(shown.out.size() - erased.size()) == erased);
   CHECK(shown.out.find('\n') == std::string::npos);  // the bar never leaves its line
+  for (const Outcome& none : {on_terminal(here, render + " -q"), on_terminal(here, render, 80, "dumb")}) {
+    CHECK(none.code == 0);
+    CHECK(none.out.empty());
+  }
+}
 
-  const Outcome quiet = on_terminal(here, render + " -q");
-  CHECK(quiet.code == 0);
-  CHECK(quiet.out.empty());
+TEST_CASE("streams: a bar is shorter than a row of its terminal") {
+  const Workplace here;
+  for (const std::size_t columns : {5u, 20u, 40u, 200u}) {
+    CAPTURE(columns);
+    const Outcome shown = on_terminal(here, "render good.toml -o a.png --spp 16 -j 1 -r " + long_render(),
+                                      static_cast<int>(columns));
+    REQUIRE(shown.code == 0);
+    std::size_t longest = 0;
+    for (std::size_t at = shown.out.find('\r'); at != std::string::npos;) {
+      const std::size_t next = shown.out.find('\r', at + 1);
+      const std::size_t length = std::min(next, shown.out.size()) - at;
+      longest = std::max(longest, length - std::string_view("\r\x1B[K").size());
+      at = next;
+    }
+    CHECK(longest > 0);
+    CHECK(longest < columns);
+    CHECK((shown.out.find("tracer [") != std::string::npos) == (columns >= 40));
+  }
 }
 
 TEST_CASE("streams: a terminal that goes away takes the bar with it, not the picture") {
