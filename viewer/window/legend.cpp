@@ -86,8 +86,8 @@ std::vector<Entry> ray_entries(const Inspection& inspection) {
 
 // The longest there can be, for the room that they take.
 std::vector<std::size_t> longest(const WindowState& state) {
-  if (state.mode == Mode::causes) return {36, 40, 40, 46};
   std::vector<std::size_t> out;
+  if (state.mode == Mode::causes) out = {36, 40, 40, 46};
   if (state.mode == Mode::difference) out = {25, 24, 27, 26, 33};
   if (!state.inspected) return out;
   for (const char* name : kSegmentNames) out.push_back(std::string_view(name).size());
@@ -155,12 +155,10 @@ void draw_legend(const Canvas& canvas, const WindowContents& contents, const Rec
   std::vector<Entry> entries;
   if (contents.state.mode == Mode::causes) {
     if (contents.finished.finished) entries = cause_entries(contents.state, contents.finished.comparison);
-  } else {
-    if (const auto& histogram = contents.shown.histogram)
-      entries = difference_entries(*histogram, contents.finished.comparison);
-    if (contents.inspection)
-      std::ranges::move(ray_entries(*contents.inspection), std::back_inserter(entries));
+  } else if (const auto& histogram = contents.shown.histogram) {
+    entries = difference_entries(*histogram, contents.finished.comparison);
   }
+  if (contents.inspection) std::ranges::move(ray_entries(*contents.inspection), std::back_inserter(entries));
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImFont& font = *canvas.fonts().caption;
   const double height = static_cast<double>(font.FontSize), line = kLegendLine * canvas.scale();

@@ -191,10 +191,10 @@ TEST_CASE("window: all colours of the difference's scale stand in one row, in th
   CHECK(rows >= 8);  // of its ten, whose first and last are its frame
 }
 
-TEST_CASE("window: under the difference, too, the colours of the inspected pixel's rays are named") {
+TEST_CASE(
+    "window: under the difference and the causes, too, the colours of the inspected pixel's rays are named") {
   const Workplace here;
   WindowState state = open_state(here / "good.toml", opener(48, 36));
-  state.mode = Mode::difference;
   const Pictures pictures = render_pictures(picture_task(state));
   const auto rays_named = [&] {
     const Rect legend = window_layout(state, {1300, 800}, 1).legend;
@@ -210,9 +210,13 @@ TEST_CASE("window: under the difference, too, the colours of the inspected pixel
       }
     return pixels;
   };
-  CHECK(rays_named() == 0);
-  state.inspected = glm::ivec2(24, 18);
-  CHECK(rays_named() > 100);  // a square of some 17
+  for (const Mode mode : {Mode::difference, Mode::causes}) {
+    state.mode = mode;
+    state.inspected.reset();
+    CHECK(rays_named() == 0);
+    state.inspected = glm::ivec2(24, 18);
+    CHECK(rays_named() > 100);  // a square of some 17
+  }
 }
 
 #endif
