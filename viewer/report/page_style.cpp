@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How a report looks: one column of text, pictures as wide as there is room, light or dark as the reader's system is; and
-// how plots do. Text has a contrast of at least 4.5 to its ground, a curve one of at least 3.
+// how plots do. Text has a contrast of at least 4.5 to its ground, a curve or a mark one of at least 3.
 #include <array>
 
 #include "viewer/report/html.h"
@@ -12,21 +12,21 @@ namespace {
 struct Color {
   std::string_view name, light, dark;
 };
-constexpr std::array<Color, 15> kColors{{{"paper", "#fff", "#14161a"},
-                                         {"ink", "#1b1d22", "#e9ebef"},
-                                         {"quiet", "#575c66", "#a7adb8"},
-                                         {"rule", "#d5d8de", "#3a3f49"},
-                                         {"panel", "#f4f5f7", "#1e2127"},
-                                         {"accent", "#0b5cad", "#7cb8f5"},
-                                         {"on-accent", "#fff", "#10131a"},
-                                         {"bad", "#a8201a", "#ff8a80"},
-                                         {"beaten", "#a0a4ac", "#6d737e"},
-                                         {"c0", "#0072b2", "#56b4e9"},
-                                         {"c1", "#c44e00", "#ff8a3d"},
-                                         {"c2", "#00835f", "#2bc49a"},
-                                         {"c3", "#a2457f", "#e59ac8"},
-                                         {"c4", "#8a6100", "#e6b93c"},
-                                         {"c5", "#1b1d22", "#e9ebef"}}};
+constexpr std::array<Color, 15> kPalette{{{"paper", "#fff", "#14161a"},
+                                          {"ink", "#1b1d22", "#e9ebef"},
+                                          {"quiet", "#575c66", "#a7adb8"},
+                                          {"rule", "#d5d8de", "#3a3f49"},
+                                          {"panel", "#f4f5f7", "#1e2127"},
+                                          {"accent", "#0b5cad", "#7cb8f5"},
+                                          {"on-accent", "#fff", "#10131a"},
+                                          {"bad", "#a8201a", "#ff8a80"},
+                                          {"beaten", "#868b94", "#6d737e"},
+                                          {"c0", "#0072b2", "#56b4e9"},
+                                          {"c1", "#c44e00", "#ff8a3d"},
+                                          {"c2", "#00835f", "#2bc49a"},
+                                          {"c3", "#a2457f", "#e59ac8"},
+                                          {"c4", "#8a6100", "#e6b93c"},
+                                          {"c5", "#1b1d22", "#e9ebef"}}};
 
 constexpr std::string_view kPlotStyle = R"css(
 svg { font: 13px system-ui, "Segoe UI", Arial, "DejaVu Sans", sans-serif; fill: var(--ink); overflow: hidden; }
@@ -58,13 +58,13 @@ svg .mark:focus .reach { stroke: var(--accent); stroke-width: 3; }
 
 std::string definitions(std::string_view Color::*shade) {
   std::string out;
-  for (const Color& color : kColors) out += fmt::format("--{}: {}; ", color.name, color.*shade);
+  for (const Color& color : kPalette) out += fmt::format("--{}: {}; ", color.name, color.*shade);
   return out;
 }
 
 std::string rules_with_values(std::string_view Color::*shade) {
   std::string out(kPlotStyle);
-  for (const Color& color : kColors) {
+  for (const Color& color : kPalette) {
     const std::string variable = fmt::format("var(--{})", color.name);
     for (std::size_t at = 0; (at = out.find(variable, at)) != std::string::npos;)
       out.replace(at, variable.size(), color.*shade);
@@ -102,7 +102,7 @@ h2 { font-size: 1.6rem; font-weight: 650; letter-spacing: -0.01em; margin: 3.5re
      padding-top: 1.2rem; border-top: 1px solid var(--rule); }
 h3 { font-size: 1.15rem; margin: 0 0 0.4rem; }
 .lobes + h3, .lobes + .quiet { margin-top: 2rem; }
-p, dl, figcaption, table { max-width: 46rem; }
+p, figcaption, table { max-width: 46rem; }
 p { margin: 0 0 1rem; }
 .lesson { font-size: 1.15rem; overflow: clip; overflow-clip-margin: 0.3em; }
 .over, .quiet, figcaption, caption { color: var(--quiet); }
@@ -113,6 +113,7 @@ p { margin: 0 0 1rem; }
 code, kbd { font-family: ui-monospace, "Cascadia Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace;
             font-size: 0.9em; }
 kbd { border: 1px solid; border-radius: 0.2rem; padding: 0 0.35em; opacity: 0.8; }
+.pair:not(:focus-within) kbd { visibility: hidden; }   /* the key counts where the focus is in the pair */
 pre { background: var(--panel); border: 1px solid var(--rule); border-radius: 0.4rem; padding: 0.8rem 1rem;
       margin: 0 0 1rem; white-space: pre-wrap; }
 pre.lesson { font-size: 1rem; }
@@ -202,7 +203,6 @@ button { border-radius: 0.4rem; }
 /* A bench: the plot and what its marks point to; many pictures in small; tables with more columns than a page has room. */
 .bench h3 { margin-top: 2.6rem; }
 .explore { display: grid; gap: 1rem 2rem; grid-template-columns: minmax(0, 680px); align-items: start; }
-.pointed h4 { margin: 0 0 0.2rem; font-size: 1rem; }
 .pointed p { margin: 0 0 0.8rem; font-size: 0.95rem; line-height: 1.45; min-height: 3em; }
 .pointed .columns { gap: 0.8rem; grid-template-columns: repeat(auto-fit, minmax(min(12rem, 100%), 1fr)); }
 .pointed img, .gallery img { width: 100%; }
@@ -245,7 +245,7 @@ select { font: inherit; max-width: 100%; padding: 0.4rem 0.5rem; background: var
   .controls { display: none !important; }
   .steps.one li { display: block; }
   h2, p, figure, li, table { break-inside: avoid; }
-  h2, h3, h4, p:has(+ pre) { break-after: avoid; }
+  h2, h3, p:has(+ pre) { break-after: avoid; }
   .numbers { page: numbers; }
   .wide { overflow: visible; }
   .wide table { font-size: 0.6rem; break-inside: auto; }
