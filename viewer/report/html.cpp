@@ -104,7 +104,7 @@ Html pair_html(std::string_view name, const Figure& left, const Figure& right, c
 <label><input type="radio" name="{3}" value="swipe">swipe</label>
 <label><input type="radio" name="{3}" value="flip">in place</label>
 </fieldset>
-<button type="button" class="flip">Flip <kbd>F</kbd></button>
+<button type="button" class="flip" aria-keyshortcuts="F">Flip <kbd>F</kbd></button>
 {4}</div>
 <div class="stage">
 {5}{6}<div class="cover"><input type="range" min="0" max="1000" step="5" value="500" aria-label="Where the left picture ends and the right one begins"></div>

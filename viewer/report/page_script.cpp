@@ -8,7 +8,9 @@ namespace sidelight {
 const std::string_view kPageScript = R"js(
 'use strict';
 
-// Two pictures: beside each other, under a slider, or flipped in place (the button, F, or a click on the picture).
+// Two pictures: beside each other, under a slider, or flipped in place (the button, F, or a click on the picture). A key
+// without a modifier may be what someone says or hits by chance: F counts where the focus is in the pair, which a click
+// on the picture gives it too.
 for (const pair of document.querySelectorAll('.pair')) {
   const modes = [...pair.querySelectorAll('input[type=radio]')];
   const range = pair.querySelector('input[type=range]');
@@ -23,17 +25,22 @@ for (const pair of document.querySelectorAll('.pair')) {
     const flipping = pair.dataset.mode === 'flip';
     show('flip', flipping && pair.dataset.shown === 'left' ? 'right' : 'left');
   };
-  const swipe = () => pair.style.setProperty('--at', range.value / 10 + '%');
+  const swipe = () => {
+    const at = range.value / 10 + '%';
+    pair.style.setProperty('--at', at);
+    range.setAttribute('aria-valuetext', at);
+  };
 
   for (const radio of modes) radio.addEventListener('change', () => show(radio.value, 'left'));
   range.addEventListener('input', swipe);
   pair.querySelector('.flip').addEventListener('click', flip);
   stage.addEventListener('click', () => { if (pair.dataset.mode === 'flip') flip(); });
-  document.addEventListener('keydown', event => {
+  pair.tabIndex = -1;
+  pair.addEventListener('keydown', event => {
     if (event.key.toLowerCase() !== 'f' || event.ctrlKey || event.metaKey || event.altKey) return;
-    const { top, bottom } = stage.getBoundingClientRect();
-    const seen = top < innerHeight && bottom > 0;
-    if (seen && event.target.tagName !== 'SELECT') flip();
+    if (event.target.tagName === 'SELECT') return;
+    flip();
+    if (event.target === range) pair.querySelector('.flip').focus({ preventScroll: true });   // the slider is hidden now
   });
   for (const select of pair.querySelectorAll('select')) {
     const figure = stage.querySelectorAll('figure')[select.dataset.side === 'left' ? 0 : 1];

@@ -167,9 +167,26 @@ def check_silence(browser, state):
 def check_pair(browser):
     shown = "[...document.querySelector('.pair').querySelectorAll('figure')].map(f => getComputedStyle(f).visibility).join()"
     side_by_side = browser.shot(".pair .stage")
+    range_says = "[document.querySelector('.cover input').value / 10 + '%', document.querySelector('.cover input').ariaValueText]"
+
+    # A bare letter is a shortcut within the pair alone: elsewhere it may be what speech or a slip of the hand types.
+    says_key = "getComputedStyle(document.querySelector('.pair .flip kbd')).visibility === 'visible'"
+    browser.value("document.activeElement.blur()")
+    browser.press("f", 70)
+    check("flip: F flips what has no focus", browser.shot(".pair .stage") == side_by_side)
+    check("flip: the button names a key that does nothing", not browser.value(says_key))
+    for inside in ("input[type=radio]", ".flip"):
+        browser.value(f"document.querySelector('.pair {inside}').focus()")
+        check(f"flip: the button does not name its key, with focus on {inside}", browser.value(says_key))
+        browser.press("f", 70)
+        check(f"flip: F does nothing with focus on {inside}", browser.value(shown) == "visible,hidden")
+        browser.click(".pair label:nth-of-type(1)")
+    check("flip: its key is not in the markup", browser.value(
+        "[...document.querySelectorAll('.pair .flip')].every(b => b.getAttribute('aria-keyshortcuts') === 'F')"))
 
     browser.click(".pair label:nth-of-type(2)")
     check("swipe: the button shows no slider", browser.value("document.querySelector('.cover').offsetHeight > 100"))
+    check("swipe: the slider does not say where it stands", browser.value(range_says) == ["50%", "50%"])
     half = browser.shot(".pair .cover")
     check("swipe: looks like side by side", half != side_by_side)
     browser.drag(".pair .cover", 0.5, 0.2)
@@ -181,6 +198,7 @@ def check_pair(browser):
     check("swipe: an arrow key does not move the slider",
           int(browser.value("document.querySelector('.cover input').value")) > at)
     check("swipe: an arrow key changes nothing to be seen", browser.shot(".pair .cover") != fifth)
+    check("swipe: the slider does not say where an arrow key put it", len(set(browser.value(range_says))) == 1)
 
     browser.press("f", 70)
     check("flip: F does not show the left picture", browser.value(shown) == "visible,hidden")
@@ -193,6 +211,10 @@ def check_pair(browser):
     check("flip: the button does not go back to the left picture", browser.shot(".pair .stage img") == first)
     browser.click(".pair .stage img")
     check("flip: a click does not show the right picture", browser.shot(".pair .stage img") == second)
+    browser.value("document.activeElement.blur()")
+    browser.click(".pair .stage img")
+    browser.press("f", 70)
+    check("flip: F does nothing behind a click on the picture", browser.shot(".pair .stage img") == second)
 
     browser.click(".pair label:nth-of-type(1)")
     check("side by side: does not come back", browser.shot(".pair .stage") == side_by_side)
