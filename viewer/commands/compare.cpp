@@ -150,6 +150,7 @@ std::string report(const Job& job, const Comparison& result, const Spoiled& spoi
                     {}};
   for (const FaultCount& each : spoiled.by_fault)
     out.faults.emplace_back(fault_name(each.fault), each.pixels);
+  out.from_raster = job.flags.from_raster();
   if (!job.flags.no_times) {
     out.raster_times = times(rastered);
     out.traced_times = times(traced);

@@ -43,39 +43,29 @@ std::string percent(std::uint64_t part, std::uint64_t whole) {
 }
 
 Html head(const CompareReport& report) {
-  const Comparison& result = report.result;
   const Scene& scene = report.scene;
-  Html out = html("<p class=\"over\">sidelight: one scene, two renderers</p>\n<h1 dir=\"auto\">{}</h1>\n",
-                  scene.title.empty() ? scene.file : scene.title);
-  out += lesson_html(scene.lesson);
-  if (result.agrees())
-    return out += html(R"(<p class="verdict"><strong>Every pixel is accounted for.</strong><br>
-Both renderers see the same surface at the same depth on every sample, and where their pictures differ, the shadows,
-mirrors and glass below explain it: 0 visibility mismatches, 0 unexplained of {} pixels.</p>
-)",
-                       Html{grouped(report.traced.pixels())});
-  Html where;
-  if (result.visibility_mismatches > 0)
-    where += html(" First mismatch at pixel {},{}.", result.mismatch_x, result.mismatch_y);
-  if (result.unexplained > 0)
-    where += html(" First unexplained pixel at {},{}.", result.unexplained_x, result.unexplained_y);
-  if (result.spoiled > 0)
-    where += html(" {} pixels are spoiled by faults put in on purpose, and in neither count.",
-                  Html{grouped(result.spoiled)});
-  return out += html(R"(<p class="verdict bad"><strong>Not every pixel is accounted for.</strong><br>
-{} visibility mismatches, {} unexplained pixels.{}</p>
-)",
-                     Html{grouped(result.visibility_mismatches)}, Html{grouped(result.unexplained)}, where);
+  return html("<p class=\"over\">sidelight: one scene, two renderers</p>\n<h1 dir=\"auto\">{}</h1>\n{}{}",
+              scene.title.empty() ? scene.file : scene.title, lesson_html(scene.lesson),
+              verdict_html(report));
+}
+
+// "with shadows, mirrors and glass", of these what is on.
+std::string traced_words(const TraceSettings& trace) {
+  const std::vector<std::string> terms = traced_terms(trace);
+  std::string out;
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    out += (i == 0 ? "with " : i + 1 < terms.size() ? ", " : " and ") + terms[i];
+  return out.empty() ? "and nothing besides" : out;
 }
 
 Html two_pictures(const CompareReport& report) {
   const Figure left{
       embedded_picture(report.rastered.color, report.rastered), "The z-buffer's picture of the scene",
       html("<b>Z-buffer.</b> Each object lit as if it were alone: ambient, diffuse and specular light.")};
-  const Figure right{
-      embedded_picture(report.traced.color, report.traced), "The ray tracer's picture of the scene",
-      html(
-          "<b>Ray tracer.</b> The same surfaces and the same local light, with shadows, mirrors and glass.")};
+  const Figure right{embedded_picture(report.traced.color, report.traced),
+                     "The ray tracer's picture of the scene",
+                     html("<b>Ray tracer.</b> The same surfaces and the same local light, {}.",
+                          traced_words(report.scene.trace))};
   Html note;
   if (const int factor = embedding_reduction(report.traced); factor > 1)
     note = html(

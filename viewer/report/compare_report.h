@@ -28,6 +28,7 @@ struct CompareReport {
   std::optional<Times> raster_times, traced_times;
   // Put in on purpose: which, and the pixels that it spoils.
   std::vector<std::pair<std::string, std::uint64_t>> faults;
+  bool from_raster = false;  // the tracer took the z-buffer's surfaces (--primary raster)
 };
 
 // The page. Pictures of more than 2^22 pixels are embedded reduced by a whole factor, which the page says. Equal
@@ -35,6 +36,9 @@ struct CompareReport {
 std::string compare_report(const CompareReport& report);
 
 // ---- Its parts in files of their own ----
+
+// Whether every pixel is accounted for, in a paragraph.
+Html verdict_html(const CompareReport& report);
 
 // A scene's lesson as paragraphs, which blank lines part; other line breaks are those of the file, not of the page. An
 // indented line that begins with "sidelight " is a command and stays a line; what stands behind two blanks in it is a

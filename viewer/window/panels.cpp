@@ -5,12 +5,7 @@ namespace sidelight {
 
 std::string traced_name(const TraceSettings& trace) {
   std::string terms;
-  const auto add = [&](bool on, const char* name) {
-    if (on) terms += (terms.empty() ? "" : ", ") + std::string(name);
-  };
-  add(trace.shadows, "shadows");
-  add(trace.reflection, "mirrors");
-  add(trace.refraction, "glass");
+  for (const std::string& term : traced_terms(trace)) terms += (terms.empty() ? "" : ", ") + term;
   return "ray tracer: " + (terms.empty() ? "local light only" : terms);
 }
 

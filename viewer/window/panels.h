@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/scene/scene.h"
 #include "viewer/window/layout.h"
@@ -22,7 +23,17 @@ struct Caption {
   std::optional<Times> times;  // absent: no line of times (--no-times)
 };
 
-// What the tracer's picture holds that a z-buffer's does not: "ray tracer: shadows, mirrors, glass", of these what is on.
+// What the tracer's picture holds that a z-buffer's does not: "shadows", "mirrors", "glass", of these what is on. Here,
+// since the window's library builds on that of the reports, which have these words too.
+inline std::vector<std::string> traced_terms(const TraceSettings& trace) {
+  std::vector<std::string> out;
+  if (trace.shadows) out.emplace_back("shadows");
+  if (trace.reflection) out.emplace_back("mirrors");
+  if (trace.refraction) out.emplace_back("glass");
+  return out;
+}
+
+// "ray tracer: shadows, mirrors, glass".
 std::string traced_name(const TraceSettings& trace);
 
 struct Labels {

@@ -10,6 +10,7 @@
 
 #include "common/picture/signed_difference.h"
 #include "tests/picture/frames.h"
+#include "tests/support/program.h"
 #include "tests/support/text.h"
 #include "viewer/report/embedded_picture.h"
 #include "viewer/report/html.h"
@@ -91,4 +92,46 @@ TEST_CASE("compare report: every picture and number is the one that it is said t
   for (std::size_t bin = 0; bin < histogram.pixels.size(); ++bin)
     bars += fmt::format(" V{:.1f} H{}", 100 * (1 - histogram.height(bin)), bin + 1);
   CHECK(contains(page, bars + " V100 Z"));
+}
+
+TEST_CASE("compare report: does not praise an agreement that --primary raster makes by itself") {
+  const Workplace here;
+  const Arguments verb{"compare", "good.toml", "-r", "32x24", "--no-times", "-q", "-o"};
+  REQUIRE(here.run(verb + Arguments{"rays"}).code == 0);
+  REQUIRE(here.run(verb + Arguments{"raster", "--primary", "raster"}).code == 0);
+  const std::string rays = read_bytes(here / "rays/report.html"),
+                    raster = read_bytes(here / "raster/report.html");
+  for (const char* words :
+       {"Both renderers see the same surface", "0 visibility mismatches, 0 unexplained"}) {
+    CHECK(contains(rays, words));
+    CHECK_FALSE(contains(raster, words));
+  }
+  const char* taken = "The ray tracer took the z-buffer's surfaces: that they agree says nothing.";
+  CHECK(contains(raster, taken));
+  CHECK_FALSE(contains(rays, taken));
+
+  // Where the account is not right it says so, too.
+  const Pair pair = equal_pair(8, 6);
+  Comparison result = compare(pair.rastered, pair.traced, 1);
+  result.unexplained = 1;
+  const Scene scene;
+  CompareReport wrong{scene, pair.rastered, pair.traced, result, {}, "explain", "view", {}, {}, {}};
+  CHECK_FALSE(contains(compare_report(wrong), taken));
+  wrong.from_raster = true;
+  CHECK(contains(compare_report(wrong), taken));
+}
+
+TEST_CASE("compare report: says of the tracer's picture what is on in it") {
+  const Workplace here;
+  const auto caption = [&](const Arguments& flags) {
+    REQUIRE(here.run(Arguments{"compare", "good.toml", "-r", "32x24", "-q", "-o", "out"} + flags).code == 0);
+    const std::string page = read_bytes(here / "out/report.html"), begin = "<b>Ray tracer.</b> ";
+    const std::size_t from = page.find(begin) + begin.size();
+    return page.substr(from, page.find("</figcaption>", from) - from);
+  };
+  const std::string same = "The same surfaces and the same local light, ";
+  CHECK(caption({}) == same + "with shadows, mirrors and glass.");
+  CHECK(caption({"--no-shadows"}) == same + "with mirrors and glass.");
+  CHECK(caption({"--no-shadows", "--no-refraction"}) == same + "with mirrors.");
+  CHECK(caption({"--local"}) == same + "and nothing besides.");
 }
