@@ -25,9 +25,6 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-// Squares of corner counts, summed over a mesh: what ear clipping may cost, at worst about a minute.
-constexpr double kMaxClipping = 1e10;
-
 void warn(Scene& scene, const SourceLocation& where, const std::string& message) {
   scene.warnings.push_back(InputError(where, message).what());
 }
@@ -54,14 +51,12 @@ void check_capacity(const Scene& scene, std::uint64_t more, const SourceLocation
 
 void check_size(const Scene& scene, const PolygonMesh& mesh, const SourceLocation& where) {
   std::uint64_t triangles = 0;
-  double clipping = 0;
   for (const PolygonMesh::Face& face : mesh.faces) {
     assert(face.count >= 3 && std::uint64_t{face.first} + face.count <= mesh.corners.size());
     triangles += face.count - 2;
-    if (face.count > 4) clipping += static_cast<double>(face.count) * face.count;
   }
   check_capacity(scene, triangles, where);
-  if (clipping > kMaxClipping)
+  if (const double clipping = clipping_effort(mesh); clipping > kMaxClipping)
     throw InputError(where, "the squares of the faces' corner counts add up to " + number_text(clipping) +
                                 ", expected at most " + number_text(kMaxClipping));
   assert(scene.positions.size() + mesh.positions.size() < kNone);
@@ -200,6 +195,13 @@ void reverse(std::span<Triangle> triangles) {
 }
 
 }  // namespace
+
+double clipping_effort(const PolygonMesh& mesh) {
+  double effort = 0;
+  for (const PolygonMesh::Face& face : mesh.faces)
+    if (face.count > 4) effort += static_cast<double>(face.count) * face.count;
+  return effort;
+}
 
 std::uint32_t add_material(Scene& scene, Material material) {
   scene.materials.push_back(std::move(material));

@@ -27,6 +27,10 @@ struct PolygonMesh {
   std::vector<Face> faces;
 };
 
+// What ear clipping of its faces costs at worst: the squares of their corner counts, summed. The limit is about a minute.
+double clipping_effort(const PolygonMesh& mesh);
+inline constexpr double kMaxClipping = 1e10;
+
 // x -> linear x + translate.
 struct Transform {
   glm::dmat3 linear{1};

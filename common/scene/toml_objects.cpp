@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "common/scene/build.h"
+#include "common/scene/number_text.h"
 #include "common/scene/obj.h"
 #include "common/scene/shapes.h"
 
@@ -173,6 +174,16 @@ PolygonMesh read_shape(ObjectSink& sink, const toml::table& table, const Shape& 
   return mesh;
 }
 
+void count_clipping(ObjectSink& sink, const toml::table& table, const PolygonMesh& mesh) {
+  sink.effort.clipping += clipping_effort(mesh);
+  if (sink.effort.clipping > kMaxClipping)
+    throw InputError(sink.document.where(table),
+                     "with this mesh the squares of the faces' corner counts add up to " +
+                         number_text(sink.effort.clipping) +
+                         " (again for each step that changes one), expected at most " +
+                         number_text(kMaxClipping));
+}
+
 // A mesh is of one of three sorts, and each takes keys that make no sense for the others.
 PolygonMesh read_polygons(ObjectSink& sink, const toml::table& table) {
   constexpr std::array<std::string_view, 3> kSorts = {"file", "shape", "vertices"};
@@ -219,6 +230,7 @@ void read_plane(ObjectSink& sink, const toml::table& table) {
 
 void read_mesh(ObjectSink& sink, const toml::table& table) {
   PolygonMesh mesh = read_polygons(sink, table);
+  if (!table.contains("shape")) count_clipping(sink, table, mesh);
   const SourceLocation where = sink.document.where(table);
   if (const toml::node* material = table.get("material")) {
     const std::uint32_t index = read_material(sink, {sink.document, *material, "material"});

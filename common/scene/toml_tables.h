@@ -24,10 +24,12 @@ inline constexpr int kMaxQuads = 1 << 18;                                 // of 
 using MaterialNames = std::map<std::string, std::uint32_t, std::less<>>;
 
 // What a few bytes of scene file have made the reader do so far: a shape or file counts each time that it is read, also
-// for the check of a step that changes its object. So no file of a lesson's size can keep the reader busy for hours.
+// for the check of a step that changes its object; kMaxClipping bounds what all meshes but shapes, whose faces are convex,
+// may cost together. So no file of a lesson's size can keep the reader busy for hours.
 struct Effort {
   std::size_t generated = 0;      // triangles of shapes
   std::uintmax_t file_bytes = 0;  // of mesh and material files
+  double clipping = 0;            // clipping_effort of meshes
 };
 
 // What objects are read with and where they go.
