@@ -172,6 +172,15 @@ TEST_CASE("many overlapping solids do not make a wall of text") {
   CHECK(all.back() == "and 1750 more pairs of solids");
 }
 
+TEST_CASE("of overlapping solids that make millions of pairs, not every pair is looked at") {
+  Scene scene = with(kGlass + ball("glass", "[0, 0, 0]", 1));
+  const Sphere same = scene.spheres[0];
+  for (int i = 1; i < 2000; ++i) add_sphere(scene, same, {"scene.toml", 8, 1});
+  const std::vector<std::string> all = limits(scene);
+  CHECK(all.size() == 21);
+  CHECK(all.back() == "and 1048556 more pairs of solids at least: too many meet for a look at each");
+}
+
 TEST_CASE("a sheet that refracts, and a solid of two materials, are named") {
   const std::string sheet =
       "[[mesh]]\nvertices = [[0,0,0],[1,0,0],[0,1,0]]\nfaces = [[0,1,2]]\nmaterial = 'glass'\n";
