@@ -4,6 +4,7 @@
 #include "raytrace/raytrace.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "common/float_state.h"
@@ -135,9 +136,14 @@ Frame render_recursively(const Prepared& prepared, const Camera& camera, const R
 }
 
 RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y) {
+  ExplainBudget all{std::numeric_limits<std::size_t>::max()};
+  return explain(prepared, camera, X, Y, all);
+}
+
+RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y, ExplainBudget& budget) {
   const StandardFloatState nearest_and_denormals;
   RenderStats stats;
-  TreeRecorder recorder;
+  TreeRecorder recorder(budget);
   Whitted<float, TreeRecorder> whitted(prepared, stats, recorder);
   whitted.trace(eye_path(camera, media_at(prepared, camera.eye), X, Y));
   return recorder.root();

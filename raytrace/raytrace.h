@@ -3,8 +3,10 @@
 // local light with shadows, plus what the mirrored and the refracted ray see. The only public header of this folder.
 #pragma once
 
+#include <atomic>
 #include <memory>
 
+#include "common/error.h"
 #include "common/model/explanation.h"
 #include "common/picture/frame.h"
 #include "common/scene/camera.h"
@@ -35,6 +37,19 @@ Frame render_in_double(const Prepared& prepared, const Camera& camera, const Ren
 // The tree of rays behind the sample at lattice position (X, Y), told by the code that render() runs: its root's colour
 // is that sample's, bit for bit.
 RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y);
+
+// What trees of rays may take together: behind a few sheets of glass each level doubles them.
+struct ExplainBudget {
+  std::size_t records;  // rays, the lights of their surfaces, surfaces passed: one less for each that is told of
+  const std::atomic<bool>* cancel = nullptr;
+};
+// Thrown where the records do not suffice.
+class TooManyRays : public UsageError {
+ public:
+  TooManyRays() : UsageError("too many rays to explain") {}
+};
+// The same within `budget`. Throws Interrupted when its `cancel` is raised.
+RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y, ExplainBudget& budget);
 
 // Brute force in double, as the lecture writes it: the text to read first, and the oracle of render().
 // Layers: kRaytraceLayers.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What Whitted tells about its work. NoRecorder hears nothing and vanishes in the compiler; TreeRecorder keeps the
-// whole tree of rays of one sample, for `explain` and the inspector.
+// whole tree of rays of one sample, for `explain` and the inspector, as far as its budget goes.
 #pragma once
 
 #include <utility>
 
+#include "raytrace/raytrace.h"
 #include "raytrace/secondary.h"
 
 namespace sidelight::raytrace {
@@ -22,14 +23,24 @@ struct NoRecorder {
 
 class TreeRecorder {
  public:
-  void begin(const Path& path) { open_.push_back(record(path)); }
-  void passed(const Hit& hit) { open_.back().passed.push_back(hit); }
+  // `budget` must outlive this.
+  explicit TreeRecorder(ExplainBudget& budget) : budget_(budget) {}
+
+  void begin(const Path& path) {
+    count_record();
+    open_.push_back(record(path));
+  }
+  void passed(const Hit& hit) {
+    count_record();
+    open_.back().passed.push_back(hit);
+  }
   void surface(const Hit& hit, const Surface& surface, const Vec3<float>& c1, const Vec3<float>& ambient) {
     open_.back().background = false;
     open_.back().local = {hit, surface, {c1.x, c1.y, c1.z}, {ambient.x, ambient.y, ambient.z}, {}};
   }
   // A light whose term is not zero; `blocker` is what stands in between, where a shadow ray met something.
   void light(std::size_t index, const LightTerm<float>& term, bool seen, const Hit& blocker) {
+    count_record();
     LightRecord record = record_light(index, term);
     record.seen = seen;
     record.self_shadowed = !seen && !blocker.found();
@@ -51,6 +62,7 @@ class TreeRecorder {
     open_.back().children.back().falloff = falloff;
   }
   void not_sent(const Path& path, const glm::dvec3& c) {
+    count_record();
     RayRecord unsent = record(path);
     unsent.sent = false;
     unsent.depth = open_.back().depth + 1;  // it would have been
@@ -61,6 +73,11 @@ class TreeRecorder {
   const RayRecord& root() const { return root_; }
 
  private:
+  void count_record() {
+    if (budget_.cancel && *budget_.cancel) throw Interrupted();
+    if (budget_.records == 0) throw TooManyRays();
+    --budget_.records;
+  }
   static RayRecord record(const Path& path) {
     RayRecord out;
     out.kind = path.kind;
@@ -71,6 +88,7 @@ class TreeRecorder {
     return out;
   }
 
+  ExplainBudget& budget_;
   std::vector<RayRecord> open_;  // the rays from the root to the one being traced
   RayRecord root_;
 };

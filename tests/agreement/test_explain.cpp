@@ -25,6 +25,13 @@ int deepest(const RayRecord& ray) {
   return depth;
 }
 
+// Rays, lights and surfaces that were passed.
+std::size_t record_count(const RayRecord& ray) {
+  std::size_t count = 1 + ray.passed.size() + ray.local.lights.size();
+  for (const RayRecord& child : ray.children) count += record_count(child);
+  return count;
+}
+
 // |sum of leaves - root| <= (leaves + 4 depth) 2^-24 sum |leaf|: each leaf is added once, and on its way to the root is
 // multiplied by c, w and c1 and added to its siblings, each time with one rounding.
 void check_leaves(const RayRecord& root) {
@@ -131,4 +138,28 @@ TEST_CASE("explain: the mean of the samples' roots is the pixel on every scene, 
 TEST_CASE("explain: the root is the picture's colour and the leaves add up to it on every scene") {
   std::uint64_t seed = 1;
   for (const std::string& file : shipped_scenes()) check_scene(file, seed++);
+}
+
+TEST_CASE("explain: a budget of records suffices to the last one, and ends with its cancel") {
+  const Scene scene = load_scene(SIDELIGHT_SOURCE_DIR "/scenes/13-everything.toml");
+  const Camera camera = make_camera(scene.camera, 64, 48, 1);
+  const auto tracer = raytrace::prepare(scene);
+  constexpr std::size_t kPlenty = 1'000'000;
+  std::size_t most = 0;
+  for (int X = 2; X < 64; X += 6) {
+    raytrace::ExplainBudget budget{kPlenty};
+    const RayRecord told = raytrace::explain(*tracer, camera, X, 24, budget);
+    const std::size_t taken = kPlenty - budget.records;
+    CHECK(taken == record_count(told));
+    most = std::max(most, taken);
+    raytrace::ExplainBudget exact{taken};
+    CHECK(raytrace::explain(*tracer, camera, X, 24, exact).color == told.color);
+    CHECK(exact.records == 0);
+    raytrace::ExplainBudget short_of_one{taken - 1};
+    CHECK_THROWS_AS(raytrace::explain(*tracer, camera, X, 24, short_of_one), raytrace::TooManyRays);
+  }
+  CHECK(most > 10);
+  const std::atomic<bool> cancel{true};
+  raytrace::ExplainBudget cancelled{kPlenty, &cancel};
+  CHECK_THROWS_AS(raytrace::explain(*tracer, camera, 32, 24, cancelled), Interrupted);
 }

@@ -119,6 +119,21 @@ inline const std::string kGoodScene =
     "normal = [0, 1, 0]\n"
     "material = 'red'\n";
 
+// Eight sheets behind each other, each of which mirrors and lets through: every level has nearly twice the rays of the one
+// before it.
+inline std::string sheets_of_glass() {
+  std::string text =
+      "[camera]\neye = [0.3, 0.2, 10]\nlook_at = [0, 0, 0]\nvertical_fov = 30\n"
+      "[[light]]\nposition = [2, 4, 9]\nintensity = 1\n"
+      "[material.sheet]\ndiffuse = 0.1\nreflect = 0.5\nrefract = 0.5\n";
+  for (int i = 0; i < 8; ++i) {
+    const std::string z = std::to_string(-i);
+    text += "[[mesh]]\nvertices = [[-9, -9, " + z + "], [9, -9, " + z + "], [0, 18, " + z +
+            "]]\nfaces = [[0, 1, 2]]\nmaterial = 'sheet'\n";
+  }
+  return text;
+}
+
 // A folder to run the program in, with good.toml and links to the shipped scenes and the tests in it: paths are those
 // that a user types in the project's folder, and outputs land nowhere else.
 class Workplace {

@@ -22,16 +22,20 @@ struct ExplainFlags {
   std::string pixel, sample, json;
 };
 
+// Of all samples together: about 300 MB of records and text, or 2 GB as JSON. 4096 samples of the showcase need half.
+constexpr std::size_t kMostRecords = std::size_t{1} << 18;
+
 std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel,
                                            const std::vector<glm::ivec2>& samples) {
   const auto rasterizer = raster::prepare(job.scene, job.options.threads);
   const auto tracer = raytrace::prepare(job.scene, job.options.threads);
   std::vector<ExplainedSample> out;
+  raytrace::ExplainBudget budget{kMostRecords, job.options.cancel};
   for (const glm::ivec2& sample : samples) {
     stop_if_interrupted();
     const int X = job.camera.n * pixel.x + sample.x, Y = job.camera.n * pixel.y + sample.y;
     out.push_back({sample.x, sample.y, raster::explain(*rasterizer, job.camera, X, Y),
-                   raytrace::explain(*tracer, job.camera, X, Y)});
+                   raytrace::explain(*tracer, job.camera, X, Y, budget)});
   }
   return out;
 }
@@ -66,6 +70,7 @@ Json local_json(const Scene& scene, const LocalRecord& local) {
 }
 
 Json ray_json(const Scene& scene, const RayRecord& ray) {
+  stop_if_interrupted();
   Json json{{"kind", ray_name(ray.kind)},
             {"sent", ray.sent},
             {"coefficient", triple_json(ray.coefficient)},
@@ -100,6 +105,7 @@ std::string explanation_text(const Job& job, glm::ivec2 pixel, const std::vector
   out += fmt::format("z-buffer    {}\n", color_text(mean_color(samples, Side::raster)));
   out += fmt::format("ray tracer  {}\n", color_text(mean_color(samples, Side::raytrace)));
   for (const ExplainedSample& sample : samples) {
+    stop_if_interrupted();
     if (samples.size() > 1) out += fmt::format("sample {},{}\n", sample.i, sample.j);
     out += fmt::format("\nz-buffer: {}\n", color_text(sample.raster.color));
     out += raster_words(job.scene, sample.raster, 1);
@@ -148,9 +154,21 @@ int run_explain(const ExplainFlags& flags) {
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) samples.emplace_back(i, j);
   }
-  const std::vector<ExplainedSample> explained = explain_pixel(job, pixel, samples);
+  std::vector<ExplainedSample> explained;
+  try {
+    explained = explain_pixel(job, pixel, samples);
+  } catch (const raytrace::TooManyRays& error) {
+    throw UsageError(
+        fmt::format("pixel {},{}: {}, more than {} with their lights; a lower --depth or a higher "
+                    "--set trace.contribution_cut=C makes them fewer",
+                    pixel.x, pixel.y, error.what(), kMostRecords));
+  }
 
-  if (flags.json != "-") fmt::print("{}", explanation_text(job, pixel, explained));
+  if (flags.json != "-") {
+    const std::string text = explanation_text(job, pixel, explained);
+    stop_if_interrupted();
+    fmt::print("{}", text);
+  }
   if (!flags.json.empty()) write_json(flags.json, explanation_json(job, pixel, explained));
   check_finite(explained, pixel);
   return 0;

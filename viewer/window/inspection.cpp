@@ -9,6 +9,9 @@
 namespace sidelight {
 namespace {
 
+// Of all samples together, for the inspector puts all of their words into each frame that the window draws.
+constexpr std::size_t kMostRecords = 8192;
+
 const ExplainedSample& middle_sample(const Inspection& inspection) {
   const int n = inspection.camera.n;
   return inspection.samples[static_cast<std::size_t>((n / 2) * n + n / 2)];
@@ -39,6 +42,19 @@ void add_segments(const Scene& scene, const RayRecord& ray, double far, std::vec
 
 double angle(const glm::dvec3& a, const glm::dvec3& b) {
   return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+}
+
+void tell_rays(const raytrace::Prepared& tracer, Inspection& inspection) {
+  raytrace::ExplainBudget budget{kMostRecords};
+  const Camera& camera = inspection.camera;
+  const glm::ivec2 first = camera.n * inspection.pixel;
+  try {
+    for (ExplainedSample& sample : inspection.samples)
+      sample.raytrace = raytrace::explain(tracer, camera, first.x + sample.i, first.y + sample.j, budget);
+  } catch (const raytrace::TooManyRays&) {
+    for (ExplainedSample& sample : inspection.samples) sample.raytrace = {};
+    inspection.too_many_rays = true;
+  }
 }
 
 // N, Rl and V need not lie in one plane. Turned about Rl into that of N and Rl, V comes to lie on one side of it or the
@@ -92,9 +108,9 @@ std::optional<Inspection> inspect_pixel(const WindowState& state, const Pictures
   for (int j = 0; j < task.n; ++j)
     for (int i = 0; i < task.n; ++i) {
       const int X = task.n * out.pixel.x + i, Y = task.n * out.pixel.y + j;
-      out.samples.push_back({i, j, raster::explain(*pictures.renderers.rasterizer, out.camera, X, Y),
-                             raytrace::explain(*pictures.renderers.tracer, out.camera, X, Y)});
+      out.samples.push_back({i, j, raster::explain(*pictures.renderers.rasterizer, out.camera, X, Y), {}});
     }
+  tell_rays(*pictures.renderers.tracer, out);
   return out;
 }
 

@@ -22,6 +22,7 @@ struct Inspection {
   double asked_ms = 0;  // of the task whose picture it explains
   Camera camera;
   std::vector<ExplainedSample> samples;  // all of the pixel's, row by row
+  bool too_many_rays = false;            // to be told of: then every sample's tree is empty
 };
 
 // A ray of the pixel, to be drawn into the pictures: from a surface to what it met, or to its light.

@@ -126,8 +126,10 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
   std::string left, right;
   for (const ExplainedSample& sample : inspection.samples) {
     left += sample_heading(inspection, sample) + raster_words(*inspection.scene, sample.raster, 0);
-    right += sample_heading(inspection, sample) + ray_words(*inspection.scene, sample.raytrace, 0);
+    if (!inspection.too_many_rays)
+      right += sample_heading(inspection, sample) + ray_words(*inspection.scene, sample.raytrace, 0);
   }
+  if (inspection.too_many_rays) right = "too many rays to explain: fewer at a lower depth, key D";
   std::string heading = fmt::format("pixel {},{}: z-buffer {}", inspection.pixel.x, inspection.pixel.y,
                                     color_text(mean_color(inspection.samples, Side::raster)));
   if (contents.state.faults.any()) heading += "\n" + told_of_faults(contents.state.faults);
@@ -149,7 +151,10 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
   }
   ImGui::SetCursorScreenPos({top.x + whole - side, top.y});
   column(canvas, contents.state, KeyTarget::rays, side,
-         "ray tracer " + color_text(mean_color(inspection.samples, Side::raytrace)), right);
+         inspection.too_many_rays
+             ? "ray tracer"
+             : "ray tracer " + color_text(mean_color(inspection.samples, Side::raytrace)),
+         right);
 }
 
 }  // namespace sidelight

@@ -96,6 +96,23 @@ TEST_CASE("explain: pixels, samples and settings that are none are wrong usage")
   }
 }
 
+TEST_CASE("explain: a tree of rays that no one could read is refused, and it says what makes it smaller") {
+  const Workplace here;
+  write_bytes(here / "sheets.toml", sheets_of_glass());
+  const Arguments middle{"explain", "sheets.toml", "-r", "64x48", "--pixel", "32,24"};
+  CHECK(here.run(middle + Arguments{"--depth", "12"}).code == 0);
+  for (const char* depth : {"20", "1000"}) {
+    const Outcome outcome = here.run(middle + Arguments{"--depth", depth});
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.find(
+              "pixel 32,24: too many rays to explain, more than 262144 with their lights; a lower "
+              "--depth or a higher --set trace.contribution_cut=C makes them fewer\n") != std::string::npos);
+    if (outcome.code != 2) break;  // or the deeper one would fill the memory
+  }
+  CHECK(here.run(middle + Arguments{"--depth", "1000", "--set", "trace.contribution_cut=0.01"}).code == 0);
+}
+
 TEST_CASE("explain: the line to copy can be typed, whatever the scene is called") {
   CHECK(shell_file("scenes/a.toml") == "scenes/a.toml");
   CHECK(shell_file("-a.toml") == "./-a.toml");

@@ -57,6 +57,15 @@ TEST_CASE("exit code 130: interrupted between the samples that explain tells of"
   for (const int signal : {SIGINT, SIGTERM}) interrupt(here, long_tale, signal, kWorking);
 }
 
+TEST_CASE("exit code 130: interrupted within the one sample that explain tells of") {
+  const Workplace here;
+  write_bytes(here / "sheets.toml", sheets_of_glass());
+  // A hundred thousand rays, and a few hundred megabytes of JSON: seconds.
+  interrupt(here,
+            {"explain", "sheets.toml", "-r", "64x48", "--pixel", "32,24", "--depth", "18", "--json", "-"},
+            SIGINT, kWorking);
+}
+
 TEST_CASE("exit code 130: interrupted while the scene is read, where nothing would be rendered") {
   const Workplace here;
   write_large_scene(here);

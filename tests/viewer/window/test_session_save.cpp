@@ -129,6 +129,24 @@ TEST_CASE("inspection: rays start where the eye's ends, and the lobe's value is 
   CHECK(lobes > 3);
 }
 
+TEST_CASE("inspection: of too many rays to explain none is told of, but all of the z-buffer") {
+  const Workplace here;
+  write_bytes(here / "scene.toml", sheets_of_glass());
+  WindowState state = open_state(here / "scene.toml", opener(8, 6));
+  state.inspected = {4, 3};
+  for (const int depth : {8, 15}) {
+    CAPTURE(depth);
+    Scene scene = *state.scene;
+    scene.trace.depth = depth;
+    state.scene = state.drawn = std::make_shared<const Scene>(scene);
+    const Inspection inspection = *inspect_pixel(state, render_pictures(picture_task(state)));
+    CHECK(inspection.too_many_rays == (depth == 15));
+    CHECK(ray_segments(inspection).empty() == inspection.too_many_rays);
+    CHECK(specular_lobe(inspection).has_value() != inspection.too_many_rays);
+    CHECK(inspection.samples.at(0).raster.fragments.size() == 8);
+  }
+}
+
 TEST_CASE("inspection: rays to lights, free and blocked, and the lobe of the brighter of two") {
   const Workplace here;
   // In the middle a wall stands between the floor and the first lamp; the second, from a direction, is far brighter.
