@@ -8,8 +8,8 @@
 namespace sidelight {
 
 // The scene with a mesh of `segments` (shapes.h: make_sphere_mesh) in place of each sphere. Objects and materials keep
-// their numbers; primitives are numbered anew. Throws InputError, at the object that passes it, where that is more primitives
-// than a scene may have (limits.h), before any is made.
+// their numbers; primitives are numbered anew. Throws InputError, at the object that is too many, where that is more
+// primitives than a scene may have (limits.h), before any is made.
 Scene tessellated(const Scene& scene, int segments);
 
 }  // namespace sidelight
