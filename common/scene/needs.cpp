@@ -45,16 +45,12 @@ int axis_of_rows(std::span<const Bounds> solids) {
   return greatest_axis(spread.x, spread.y, spread.z);
 }
 
+// Or may, where they are too many to be sure.
 bool any_solids_meet(const Scene& scene) {
   std::vector<Bounds> solids;
   for (const Object& object : scene.objects)
     if (object.solid) solids.push_back(bounds_of(scene, object));
-  bool any = false;
-  visit_meeting(solids, [&](std::size_t, std::size_t) {
-    any = true;
-    return false;
-  });
-  return any;
+  return !visit_meeting(solids, [](std::size_t, std::size_t) { return false; });
 }
 
 }  // namespace
@@ -81,18 +77,22 @@ Bounds bounds_of(const Scene& scene, const Object& object) {
 }
 
 // Sweep: those that are open when one begins are all it can meet.
-void visit_meeting(std::span<const Bounds> bounds,
+bool visit_meeting(std::span<const Bounds> bounds,
                    const std::function<bool(std::size_t, std::size_t)>& visit) {
   const int axis = axis_of_rows(bounds);
   std::vector<std::size_t> by_begin(bounds.size()), open;
   std::iota(by_begin.begin(), by_begin.end(), std::size_t{0});
   std::ranges::sort(by_begin, {}, [&](std::size_t i) { return bounds[i].low[axis]; });
+  std::size_t looks = 0;
   for (const std::size_t now : by_begin) {
+    looks += open.size();
+    if (looks > kMostLooks) return false;
     std::erase_if(open, [&](std::size_t other) { return bounds[other].high[axis] < bounds[now].low[axis]; });
     for (const std::size_t other : open)
-      if (bounds[other].meets(bounds[now]) && !visit(other, now)) return;
+      if (bounds[other].meets(bounds[now]) && !visit(other, now)) return false;
     open.push_back(now);
   }
+  return true;
 }
 
 Needs needs_of(const Scene& scene) {

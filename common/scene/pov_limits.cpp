@@ -118,7 +118,7 @@ void add_pair_limits(const Scene& scene, const std::vector<std::uint32_t>& solid
   // Of the later one and the one before it: the first in the file.
   std::map<std::array<std::size_t, 2>, Relation> named;
   std::size_t pairs = 0, looked_at = 0;
-  visit_meeting(boxes, [&](std::size_t i, std::size_t j) {
+  const bool all = visit_meeting(boxes, [&](std::size_t i, std::size_t j) {
     if (++looked_at > kMostPairs) return false;
     const std::size_t first = std::min(i, j), second = std::max(i, j);
     const Object &later = scene.objects[solids[second]], &before = scene.objects[solids[first]];
@@ -135,9 +135,10 @@ void add_pair_limits(const Scene& scene, const std::vector<std::uint32_t>& solid
   for (const auto& [pair, lies] : named)
     out.push_back(pair_limit(scene, lies, solids[pair[0]], solids[pair[1]]));
   const std::size_t more = pairs - named.size();
-  if (looked_at > kMostPairs)
+  if (!all)
     out.push_back(
-        {fmt::format("and {} more pairs of solids at least: too many meet for a look at each", more), {}});
+        {fmt::format("and {} more pairs of solids, or many more: too many are near for a look at each", more),
+         {}});
   else if (more > 0)
     out.push_back({fmt::format("and {} more pairs of solids", more), {}});
 }

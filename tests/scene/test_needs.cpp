@@ -110,14 +110,28 @@ TEST_CASE("needs: pairs of bounds that meet are those that two loops find, each 
     found.emplace_back(std::min(i, j), std::max(i, j));
     return true;
   };
-  visit_meeting(bounds, visit);
+  CHECK(visit_meeting(bounds, visit));
   std::ranges::sort(found);
   CHECK(found.size() > 200);
   CHECK(found == expected);
 
   int visits = 0;
-  visit_meeting(bounds, [&](std::size_t, std::size_t) { return ++visits < 3; });
+  CHECK_FALSE(visit_meeting(bounds, [&](std::size_t, std::size_t) { return ++visits < 3; }));
   CHECK(visits == 3);
+}
+
+TEST_CASE("needs: of more rods beside each other than can be looked at in pairs, some may meet") {
+  // They begin along x, farthest apart, and are as long as that; beside each other along y.
+  const auto rods = [](int count) {
+    std::vector<Bounds> out;
+    for (int i = 0; i < count; ++i) out.push_back({{4.0 * i, i, 0}, {4.0 * (i + count), i + 0.5, 1}});
+    return out;
+  };
+  int visits = 0;
+  const auto visit = [&](std::size_t, std::size_t) { return ++visits > 0; };
+  CHECK(visit_meeting(rods(1000), visit));
+  CHECK_FALSE(visit_meeting(rods(100'000), visit));  // 5e9 pairs
+  CHECK(visits == 0);
 }
 
 TEST_CASE("needs: a long row of balls along any axis, which do not meet but for the last") {
