@@ -39,8 +39,9 @@ Frame render_in_double(const Prepared& prepared, const Camera& camera, const Ren
 RayRecord explain(const Prepared& prepared, const Camera& camera, int X, int Y);
 
 // What trees of rays may take together: behind a few sheets of glass each level doubles them.
+// Rays, the lights of their surfaces and surfaces passed are records: one less is left for each that is told of.
 struct ExplainBudget {
-  std::size_t records;  // rays, the lights of their surfaces, surfaces passed: one less for each that is told of
+  std::size_t records;
   const std::atomic<bool>* cancel = nullptr;
 };
 // Thrown where the records do not suffice.

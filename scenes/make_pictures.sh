@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the pictures of scenes/README.md. See --help. tests/viewer/commands/test_walk_pictures.cpp compares them with what the
-# program makes now.
+# Makes the pictures of scenes/README.md. See --help. tests/viewer/commands/test_walk_pictures.cpp compares them
+# with what the program makes now.
 set -euo pipefail
 
 usage() {

@@ -43,10 +43,7 @@ dvec3 in_range(const dvec3& p, const SourceLocation& where, const std::string& w
 }
 
 void check_capacity(const Scene& scene, std::uint64_t more, const SourceLocation& where) {
-  const std::uint64_t total = scene.primitive_object.size() + more;
-  if (total > kMaxPrimitives)
-    throw InputError(where, "the scene reaches " + std::to_string(total) + " primitives, expected at most " +
-                                std::to_string(kMaxPrimitives));
+  check_capacity(scene.primitive_object.size() + more, where);
 }
 
 void check_size(const Scene& scene, const PolygonMesh& mesh, const SourceLocation& where) {
@@ -195,6 +192,12 @@ void reverse(std::span<Triangle> triangles) {
 }
 
 }  // namespace
+
+void check_capacity(std::uint64_t primitives, const SourceLocation& where) {
+  if (primitives > kMaxPrimitives)
+    throw InputError(where, "the scene reaches " + std::to_string(primitives) +
+                                " primitives, expected at most " + std::to_string(kMaxPrimitives));
+}
 
 double clipping_effort(const PolygonMesh& mesh) {
   double effort = 0;

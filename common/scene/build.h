@@ -15,17 +15,20 @@ namespace sidelight {
 struct PolygonMesh {
   struct Corner {
     std::uint32_t position = 0;
-    std::uint32_t normal = kNone;      // into normals; all corners of a face have one, or none has
+    std::uint32_t normal = kNone;  // into normals; all corners of a face have one, or none has
   };
   struct Face {
-    std::uint32_t first = 0, count = 0;   // range in corners; count >= 3
-    std::uint32_t material = 0;           // into Scene::materials
-    int line = 0, column = 0;             // where the file has it, 0 for generated faces
+    std::uint32_t first = 0, count = 0;  // range in corners; count >= 3
+    std::uint32_t material = 0;          // into Scene::materials
+    int line = 0, column = 0;            // where the file has it, 0 for generated faces
   };
-  std::vector<glm::dvec3> positions, normals;   // normals of any non-zero length; zero means "use the face's"
+  std::vector<glm::dvec3> positions, normals;  // normals of any non-zero length; zero means "use the face's"
   std::vector<Corner> corners;
   std::vector<Face> faces;
 };
+
+// Throws InputError where a scene that reaches so many primitives has more than it may (limits.h).
+void check_capacity(std::uint64_t primitives, const SourceLocation& where);
 
 // What ear clipping of its faces costs at worst: the squares of their corner counts, summed. The limit is about a minute.
 double clipping_effort(const PolygonMesh& mesh);

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/scene/tessellate.h"
 
-#include <string>
-
-#include "common/error.h"
 #include "common/scene/build.h"
-#include "common/scene/limits.h"
 #include "common/scene/shapes.h"
 
 namespace sidelight {
@@ -23,24 +19,14 @@ void copy_mesh(const Scene& from, const Object& object, Scene& to) {
   to.objects.push_back(copy);
 }
 
-void check_capacity(const Scene& scene, std::uint64_t of_sphere) {
-  std::uint64_t total = 0;
-  for (const Object& object : scene.objects) {
-    total += object.kind == ObjectKind::sphere ? of_sphere : object.count;
-    if (total > kMaxPrimitives)
-      throw InputError(object.where, "with its spheres tessellated the scene reaches " +
-                                         std::to_string(total) + " primitives here, expected at most " +
-                                         std::to_string(kMaxPrimitives));
-  }
-}
-
 }  // namespace
 
 Scene tessellated(const Scene& scene, int segments) {
   PolygonMesh ball = make_sphere_mesh(segments);
-  std::uint64_t triangles = 0;
-  for (const PolygonMesh::Face& face : ball.faces) triangles += face.count - 2;
-  check_capacity(scene, triangles);
+  std::uint64_t of_ball = 0, total = 0;
+  for (const PolygonMesh::Face& face : ball.faces) of_ball += face.count - 2;
+  for (const Object& object : scene.objects)
+    check_capacity(total += object.kind == ObjectKind::sphere ? of_ball : object.count, object.where);
   Scene out = scene;  // positions and normals keep their numbers, so copied triangles stay right
   out.spheres.clear();
   out.planes.clear();

@@ -22,7 +22,7 @@ struct ExplainFlags {
   std::string pixel, sample, json;
 };
 
-// Of all samples together: about 300 MB of records and text, or 2 GB as JSON. 4096 samples of the showcase need half.
+// Of all samples together, a kilobyte or so of memory each and more as JSON; 4096 samples of the showcase need half of them.
 constexpr std::size_t kMostRecords = std::size_t{1} << 18;
 
 std::vector<ExplainedSample> explain_pixel(const Job& job, glm::ivec2 pixel,

@@ -41,7 +41,7 @@ void reserve_standard_streams() {
 }
 
 void install_signal_handlers() {
-  // Without SA_RESTART, as std::signal() has it: what waits for a file, a FIFO that nobody writes to, waits no longer.
+  // Without the SA_RESTART that std::signal() sets: what waits for a file, a FIFO that nobody writes to, waits no longer.
   struct sigaction action {};
   action.sa_handler = on_signal;
   sigaction(SIGINT, &action, nullptr);

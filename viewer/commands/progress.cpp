@@ -14,7 +14,6 @@
 #include "common/clock.h"
 
 namespace sidelight {
-
 namespace {
 
 // That takes the escape sequence that clears a line.
