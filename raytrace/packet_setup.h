@@ -62,18 +62,18 @@ struct TriangleSetup {
 };
 
 template <class D>
-D fused_dot(const Vec3<D>& a, const Vec3<D>& b) {
+D mul_add_dot(const Vec3<D>& a, const Vec3<D>& b) {
   return mul_add(a.x, b.x, mul_add(a.y, b.y, D(a.z * b.z)));
 }
 template <class D>
-Vec3<D> fused_cross(const Vec3<D>& a, const Vec3<D>& b) {
+Vec3<D> mul_add_cross(const Vec3<D>& a, const Vec3<D>& b) {
   return {mul_add(a.y, b.z, D(-(a.z * b.y))), mul_add(a.z, b.x, D(-(a.x * b.z))),
           mul_add(a.x, b.y, D(-(a.y * b.x)))};
 }
 // x a + y b + c, of absolute values: the most that an affine function of this size can be.
 template <class D>
 D most_of(const Vec3<D>& f, const Vec3<D>& size) {
-  return fused_dot(absolute(f), size);
+  return mul_add_dot(absolute(f), size);
 }
 // The most that |u|, |v| and 1 can be.
 template <class D>
@@ -138,7 +138,7 @@ struct PlaneSetup {
 template <class D>
 PlaneSetup<D> set_up_depth(const RayPacket& p, const PacketAxes& axes, const Vec3<D>& q0, const Vec3<D>& n,
                            const D& l, const D& m, std::size_t lane, TriangleSetup& out) {
-  const D h = fused_dot(q0, n), size_h = lane_abs<D>(h), off = D(axes.per_det) * (l * m);
+  const D h = mul_add_dot(q0, n), size_h = lane_abs<D>(h), off = D(axes.per_det) * (l * m);
   const D size_n = most_of(n, wide<D>(axes.size));
   const Mask<D> sure = size_h > mul_add(D(0x1p-27), l, D(0x1p-25 * (axes.kappa * axes.kappa)) * m) * off &&
                        size_h > lane_max<D>(D(0x1p-17) * l, D(0x1p-20 * p.reach)) * size_n;
@@ -165,7 +165,7 @@ void set_up_edges(const RayPacket& p, const PacketAxes& axes, const std::array<V
   const D near = D(p.near_error) * mul_add(D(p.reach), plane.most_w, D(p.length));
   D doubt(0);
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3<D> edge = fused_cross(q[(k + 1) % 3], q[(k + 2) % 3]);
+    const Vec3<D> edge = mul_add_cross(q[(k + 1) % 3], q[(k + 2) % 3]);
     const D unit = most_of(edge, extents<D>(p));
     const D rounding = mul_add(D(p.place_error), D(lane_abs<D>(edge.x) + lane_abs<D>(edge.y)),
                                mul_add(near, most_of(edge, wide<D>(axes.size)), ray));
@@ -184,7 +184,7 @@ bool set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* 
                       std::size_t lane, std::size_t at, TriangleSetup& out) {
   const auto corner = [&](std::uint32_t k) { return load_corner<D>(leaf + lane, count, k); };
   const auto in_axes = [&](const Vec3<D>& x) {
-    const auto along = [&](const Vec3<double>& row) { return fused_dot(wide<D>(row), x); };
+    const auto along = [&](const Vec3<double>& row) { return mul_add_dot(wide<D>(row), x); };
     return Vec3<D>{along(axes.row[0]), along(axes.row[1]), along(axes.row[2])};
   };
   const Vec3<D> v0 = corner(0), a0 = v0 - wide<D>(p.origin), e1 = corner(1) - v0, e2 = corner(2) - v0;
@@ -193,7 +193,7 @@ bool set_up_triangles(const RayPacket& p, const PacketAxes& axes, const double* 
   const std::array<Vec3<D>, 3> q{q0, q0 + q1, q0 + q2};
   const Mask<D> asked = lane_numbers<D>() < D(static_cast<double>(count) - static_cast<double>(lane));
   if (!set_up_rectangle<D>(p, axes, q, l, asked, at, out)) return false;
-  const PlaneSetup<D> plane = set_up_depth<D>(p, axes, q0, fused_cross(q1, q2), l, m, at, out);
+  const PlaneSetup<D> plane = set_up_depth<D>(p, axes, q0, mul_add_cross(q1, q2), l, m, at, out);
   set_up_edges<D>(p, axes, q, l, plane, at, out);
   return true;
 }

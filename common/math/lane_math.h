@@ -29,7 +29,7 @@ template <>
 struct Series<double> {
   static constexpr int kExpTerms = 13;   // (ln 2 / 2)^14 / 14! = 4e-18
   static constexpr int kAtanhTerms = 9;  // 0.1716^20 / 21 = 2e-17 relative
-  static constexpr double kExpLow = -0x1.62066151add8ap+9, kExpNone = -708.25, kExpHigh = 709.0;
+  static constexpr double kExpLow = -0x1.62066151add8bp+9, kExpNone = -708.25, kExpHigh = 709.0;
   static constexpr int kMantissaBits = 52, kBias = 1023;
   static constexpr double kRound = 0x1.8p52;
   static constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
@@ -60,7 +60,7 @@ F polynomial(const F& x, const std::array<C, kSize>& c) {
     return F(c[0]);
   } else {
     std::array<F, (kSize + 1) / 2> pairs;
-    for (std::size_t i = 0; i < kSize / 2; ++i) pairs[i] = F(c[2 * i]) + F(c[2 * i + 1]) * x;
+    for (std::size_t i = 0; i < kSize / 2; ++i) pairs[i] = fused<F>(F(c[2 * i + 1]), x, F(c[2 * i]));
     if constexpr (kSize % 2 == 1) pairs[kSize / 2] = F(c[kSize - 1]);
     return polynomial<F>(x * x, pairs);
   }
@@ -73,16 +73,16 @@ F lane_exp(const F& x) {
   using T = Scalar<F>;
   // x = n ln 2 + r, |r| <= ln 2 / 2 (and a little)
   const F known = lane_max<F>(x, F(S::kExpNone));
-  const F rounded = known * F(T(1.442695040888963407)) + F(S::kRound);
+  const F rounded = fused<F>(known, F(T(1.442695040888963407)), F(S::kRound));
   const F n = rounded - F(S::kRound);
-  const F r = (known - n * F(S::kLn2High)) - n * F(S::kLn2Low);
+  const F r = fused<F>(n, F(-S::kLn2Low), fused<F>(n, F(-S::kLn2High), known));
   constexpr auto kSeries = detail::exp_series<T>();
   // 2^(n-1) from the low bits of `rounded`; of the least n, 1 - kBias, these are the bits of 0.
   using Bits = decltype(to_bits(x));
   const F half_power =
       from_bits<F>((to_bits<F>(rounded) << S::kMantissaBits) + (Bits(S::kBias - 1) << S::kMantissaBits));
   // Roundings, in ulp of the result: 1/4 in r, 1/4 and 1/2 in the last two sums, below 1/8 in all others together.
-  const F exp_r = F(1) + (r + r * r * polynomial<F>(r, kSeries));
+  const F exp_r = F(1) + fused<F>(r * r, polynomial<F>(r, kSeries), r);
   return (exp_r + exp_r) * half_power;
 }
 
@@ -100,14 +100,14 @@ F lane_log1p(const F& x) {
   const Bits k = (to_bits<F>(u) - sqrt_half) >> S::kMantissaBits;
   const F m = from_bits<F>(to_bits<F>(u) - (k << S::kMantissaBits));
   const F down = from_bits<F>((Bits(S::kBias) - k) << S::kMantissaBits);  // 2^-k
-  const F f = (m - F(1)) + lost * down;                                   // (1 + x) / 2^k - 1
+  const F f = fused<F>(lost, down, m - F(1));                             // (1 + x) / 2^k - 1
   // log(1 + f) = 2 atanh(s), s = f/(2 + f), |s| <= 0.1716; and 2 s = f - s f, where f is better known than s
   const F s = f / (F(2) + f);
   const F s2 = s * s;
   constexpr auto kSeries = detail::atanh_series<T>();
-  const F log_f = f - s * (f - s2 * polynomial<F>(s2, kSeries));
+  const F log_f = fused<F>(-s, fused<F>(-s2, polynomial<F>(s2, kSeries), f), f);
   const F k_real = to_real<F>(k);
-  return k_real * F(S::kLn2High) + (log_f + k_real * F(S::kLn2Low));
+  return fused<F>(k_real, F(S::kLn2High), fused<F>(k_real, F(S::kLn2Low), log_f));
 }
 
 }  // namespace sidelight

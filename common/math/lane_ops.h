@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What kernels ask of lanes beyond arithmetic (lanes.h): extremes, questions about masks, numbered lanes, and integers
-// beside the reals. Each is exact, so that every lane type gives the same bits.
+// beside the reals. Each is exact, or rounded once, so that every lane type gives the same bits.
 #pragma once
 
 #include <algorithm>
@@ -31,6 +31,18 @@ template <class F>
 template <class F>
 [[gnu::always_inline]] inline F lane_abs(const F& a) {
   return lane_max<F>(a, -a);
+}
+
+// a b + c, rounded once whatever the instruction set: for what reaches the frame. (Where the processor does not fuse, the C
+// library does, and takes its time.)
+template <class F>
+[[gnu::always_inline]] inline F fused(const F& a, const F& b, const F& c) {
+#ifdef __FMA__
+  if constexpr (sizeof(F) == 32 || sizeof(F) == 64) return mul_add<F>(a, b, c);
+#endif
+  using std::fma;
+  using stdx::fma;
+  return fma(a, b, c);
 }
 
 // The whole number not below (above) each lane.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The one SIMD wrapper. Hot code is written once over a lane type F and instantiated for float (the readable twin and
 // the oracle of the others), for double, and for std::experimental::simd of each instruction set; every instance
-// gives the same bits per lane, since all operations used are correctly rounded and none is fused.
+// gives the same bits per lane, since all operations used are correctly rounded, and where one is fused it is in every
+// instance.
 //
 // Why std::experimental::simd (Parallelism TS 2, in libstdc++) rather than Highway: it has ordinary operators, so a
 // kernel reads like its scalar twin and *is* it; the lane type carries its ABI, so instances for several instruction

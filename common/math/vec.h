@@ -23,6 +23,17 @@ F dot(const Vec3<F>& a, const Vec3<F>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
+// The same with the roundings of fused().
+template <class F>
+F fused_dot(const Vec3<F>& a, const Vec3<F>& b) {
+  return fused<F>(a.z, b.z, fused<F>(a.y, b.y, a.x * b.x));
+}
+// s v + w
+template <class F>
+Vec3<F> fused(const F& s, const Vec3<F>& v, const Vec3<F>& w) {
+  return {fused<F>(s, v.x, w.x), fused<F>(s, v.y, w.y), fused<F>(s, v.z, w.z)};
+}
+
 template <class F>
 Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

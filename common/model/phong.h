@@ -73,13 +73,13 @@ LightView<F> view_light(const Vec3<F>& high, const Vec3<F>& low, const Vec3<F>& 
   if (!light.directional) {
     const Vec3<F> offset = (wide<F>(light.high) - high) + (wide<F>(light.low) - low);
     // Where d² is below what float holds, L is short, and 0 where d is: then N.L > 0 does not hold.
-    const F distance2 = lane_max<F>(dot(offset, offset), F(std::numeric_limits<Scalar<F>>::min()));
+    const F distance2 = lane_max<F>(fused_dot(offset, offset), F(std::numeric_limits<Scalar<F>>::min()));
     const F distance = square_root(distance2);
     view.to_light = (F(1) / distance) * offset;
     if (light.attenuated)
-      view.arriving = F(1) / ((F(light.q0) + F(light.q1) * distance) + F(light.q2) * distance2);
+      view.arriving = F(1) / fused<F>(F(light.q2), distance2, fused<F>(F(light.q1), distance, F(light.q0)));
   }
-  view.cosine = dot(normal, view.to_light);
+  view.cosine = fused_dot(normal, view.to_light);
   return view;
 }
 
@@ -88,15 +88,15 @@ LightView<F> view_light(const Vec3<F>& high, const Vec3<F>& low, const Vec3<F>& 
 template <class F>
 F below_one(const Vec3<F>& mirrored, const Vec3<F>& to_viewer, const F& lit_cosine) {
   const Vec3<F> apart = mirrored - to_viewer;
-  const F below = F(Scalar<F>(0.5)) * dot(apart, apart);  // 1 - Rl.V
+  const F below = F(Scalar<F>(0.5)) * fused_dot(apart, apart);  // 1 - Rl.V
   // Next to grazing, rounding takes it to 1 and beyond: then the smallest cosine it can tell from 0, so that s = 0 is 1.
   const F most = F(1 - std::numeric_limits<Scalar<F>>::epsilon() / 2);
-  const Mask<F> seen = lane_min<F>(dot(mirrored, to_viewer), lit_cosine) > F(0);
+  const Mask<F> seen = lane_min<F>(fused_dot(mirrored, to_viewer), lit_cosine) > F(0);
   return select<F>(seen, lane_min<F>(below, most), F(1));
 }
 template <class F>
 Vec3<F> mirrored_light(const F& lit_cosine, const Vec3<F>& to_light, const Vec3<F>& normal) {
-  return (F(2) * lit_cosine) * normal - to_light;
+  return fused<F>(F(2) * lit_cosine, normal, -to_light);
 }
 
 // log of max(0, Rl.V)^s, of which lane_exp() makes 0 where it is nothing.
@@ -129,7 +129,7 @@ LightTerm<F> light_term(const ShadingPoint<F>& point, const ShadingLight<Scalar<
   term.highlight = F(0);
   term.arriving = view.arriving;
   term.lit = view.cosine > F(0);
-  term.self_shadowed = term.lit && dot(point.facing, view.to_light) <= F(0);
+  term.self_shadowed = term.lit && fused_dot(point.facing, view.to_light) <= F(0);
   const F lit_cosine = lane_max<F>(F(0), view.cosine);
   if (shiny && any<F>(term.lit))
     term.highlight = specular_power<F>(mirrored_light<F>(lit_cosine, view.to_light, point.normal),

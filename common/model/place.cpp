@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <vector>
 
+#include "common/math/lane_ops.h"
 #include "common/math/norms.h"
 
 namespace sidelight {
@@ -72,7 +73,7 @@ Place locate_triangle(const Scene& scene, const Triangle& triangle, const Ray& r
 
   Place place;
   for (std::size_t k = 0; k < 3; ++k) place.barycentric[k] = std::abs(e[k]) * per_sum;
-  place.point = v.v0 + place.barycentric[1] * (v.v1 - v.v0) + place.barycentric[2] * (v.v2 - v.v0);
+  place.point = between(place, v.v0, v.v1 - v.v0, v.v2 - v.v0);
   place.outward = outward_of(v);
   place.entering = view_side(view, counts) < 0;
   place.clearance = clearance_of(v, place.outward);
@@ -209,6 +210,12 @@ Place locate(const Scene& scene, const Ray& ray, const Hit& hit, VisibilityCount
   place.facing = place.entering ? place.outward : -place.outward;
   place.together = together_depth(ray, hit, place);
   return place;
+}
+
+glm::dvec3 between(const Place& place, const glm::dvec3& at0, const glm::dvec3& to1, const glm::dvec3& to2) {
+  const auto [_, b1, b2] = place.barycentric;
+  const auto component = [&](int i) { return fused<double>(b2, to2[i], fused<double>(b1, to1[i], at0[i])); };
+  return {component(0), component(1), component(2)};
 }
 
 // Two surfaces whose points cannot be told apart: 2 clearances, seen along the ray, and the rounding of two depths.

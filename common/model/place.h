@@ -24,6 +24,9 @@ struct Place {
 
 Place locate(const Scene& scene, const Ray& ray, const Hit& hit, VisibilityCounts& counts);
 
+// What is at0 at a triangle's vertex 0 and differs from it by to1 and to2 at the others.
+glm::dvec3 between(const Place& place, const glm::dvec3& at0, const glm::dvec3& to1, const glm::dvec3& to2);
+
 // `together` of a place whose facing and clearance are known.
 double together_depth(const Ray& ray, const Hit& hit, const Place& place);
 

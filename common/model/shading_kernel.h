@@ -202,7 +202,7 @@ template <class F>
       const Vec3<F> total = term.total();
       const Mask<F> dark = total.x == F(0) && total.y == F(0) && total.z == F(0);
       // Not dark, so it is lit.
-      const Mask<F> self_shadowed = dot(load_rows<F>(batch.facing, i), vec(lanes.to_light[v])) <= F(0);
+      const Mask<F> self_shadowed = fused_dot(load_rows<F>(batch.facing, i), vec(lanes.to_light[v])) <= F(0);
       const F state = select<F>(self_shadowed, F(LightTerms::kSelfShadowed), F(LightTerms::kAsk));
       store_rows<F>(total, out.light[l].total, i);
       store(select<F>(dark, F(LightTerms::kDark), state), &out.light[l].state[i]);

@@ -8,7 +8,7 @@ namespace {
 glm::dvec3 interpolated(const Scene& scene, const Triangle& triangle, const Place& place, double turn) {
   const auto corner = [&](std::size_t k) { return turn * scene.normals[triangle.normal[k]]; };
   const glm::dvec3 n0 = corner(0);
-  return (n0 + place.barycentric[1] * (corner(1) - n0)) + place.barycentric[2] * (corner(2) - n0);
+  return between(place, n0, corner(1) - n0, corner(2) - n0);
 }
 
 // N before it has unit length, of a triangle. (A flat one's is interpolated too, in lanes: no zero of it is negative.)

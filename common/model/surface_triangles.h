@@ -171,7 +171,7 @@ class TriangleSurfaces {
     const Vec3<F> d = SurfaceLanes<F>(batch_, i).direction(view_);
     if (batch_.shiny) store_rows(to_floats(d), out_.to_viewer, i);
     std::array<F, 3> e;
-    for (std::size_t k = 0; k < 3; ++k) e[k] = dot(d, of_run.vector(runs_.edge[k]));
+    for (std::size_t k = 0; k < 3; ++k) e[k] = fused_dot(d, of_run.vector(runs_.edge[k]));
     const F all = (e[0] + e[1]) + e[2], size_of_d = batch_.own_rays ? l1_norm(d) : F(view_.longest);
     Mask<F> sure = all >= size_of_d * of_run(runs_.least_sum.data());
     for (F& each : e) each = lane_max(F(0), each);  // what rounding gave the other sign is 0
@@ -187,7 +187,7 @@ class TriangleSurfaces {
   Vec3<F> between(std::size_t i, const OfRun& of_run, const TriangleRuns::Vectors& at0,
                   const TriangleRuns::Vectors& to1, const TriangleRuns::Vectors& to2) const {
     const F b1 = load<F>(&b1_[i]), b2 = load<F>(&b2_[i]);
-    return (of_run.vector(at0) + b1 * of_run.vector(to1)) + b2 * of_run.vector(to2);
+    return fused<F>(b2, of_run.vector(to2), fused<F>(b1, of_run.vector(to1), of_run.vector(at0)));
   }
 
   template <class OfRun>

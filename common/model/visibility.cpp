@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/math/norms.h"
+#include "common/math/vec.h"
 #include "common/model/exact.h"
 
 namespace sidelight {
@@ -112,7 +113,7 @@ std::array<double, 3> edge_values(const TriangleView& view, const glm::dvec3& di
   std::array<double, 3> e{};
   double bound = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    e[k] = glm::dot(direction, view.edge[k]);
+    e[k] = fused_dot(wide<double>(direction), wide<double>(view.edge[k]));
     bound += glm::dot(absolute(direction), view.weight[k]);
   }
   const double sum = e[0] + e[1] + e[2];
