@@ -61,7 +61,7 @@ run_preset() {
   [[ $preset != asan-ubsan ]] || left_out="$(entry asan_leaves_out "$tier")"
   echo "== $preset: build"
   if ! { cmake -S "$root" --preset "$preset" -D SIDELIGHT_TESTS=ON -D SIDELIGHT_TEST_CASES="$cases" \
-    --log-level=NOTICE >/dev/null &&
+    -D SIDELIGHT_STAND_INS="$(entry stand_ins "$(tier_of "$preset")")" --log-level=NOTICE >/dev/null &&
     run_in "$preset" cmake --build "$dir" -j "$jobs"; }; then
     record "$preset: build" "$start" 0 1 0
     return
