@@ -49,23 +49,15 @@ Html head(const CompareReport& report) {
               verdict_html(report));
 }
 
-// "with shadows, mirrors and glass", of these what is on.
-std::string traced_words(const TraceSettings& trace) {
-  const std::vector<std::string> terms = traced_terms(trace);
-  std::string out;
-  for (std::size_t i = 0; i < terms.size(); ++i)
-    out += (i == 0 ? "with " : i + 1 < terms.size() ? ", " : " and ") + terms[i];
-  return out.empty() ? "and nothing besides" : out;
-}
-
 Html two_pictures(const CompareReport& report) {
+  const std::string words = traced_words(report.scene.trace);
   const Figure left{
       embedded_picture(report.rastered.color, report.rastered), "The z-buffer's picture of the scene",
       html("<b>Z-buffer.</b> Each object lit as if it were alone: ambient, diffuse and specular light.")};
   const Figure right{embedded_picture(report.traced.color, report.traced),
                      "The ray tracer's picture of the scene",
                      html("<b>Ray tracer.</b> The same surfaces and the same local light, {}.",
-                          traced_words(report.scene.trace))};
+                          words.empty() ? "and nothing besides" : "with " + words)};
   Html note;
   if (const int factor = embedding_reduction(report.traced); factor > 1)
     note = html(
@@ -269,6 +261,14 @@ Html how_to_go_on(const CompareReport& report) {
 }
 
 }  // namespace
+
+std::string traced_words(const TraceSettings& trace) {
+  const std::vector<std::string> terms = traced_terms(trace);
+  std::string out;
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    out += (i == 0 ? "" : i + 1 < terms.size() ? ", " : " and ") + terms[i];
+  return out;
+}
 
 std::string compare_report(const CompareReport& report) {
   Html body = head(report);

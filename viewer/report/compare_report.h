@@ -37,6 +37,9 @@ std::string compare_report(const CompareReport& report);
 
 // ---- Its parts in files of their own ----
 
+// "shadows, mirrors and glass": of these what the tracer's picture holds (traced_terms); empty where that is none.
+std::string traced_words(const TraceSettings& trace);
+
 // Whether every pixel is accounted for, in a paragraph.
 Html verdict_html(const CompareReport& report);
 

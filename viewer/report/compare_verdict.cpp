@@ -8,17 +8,18 @@ Html verdict_html(const CompareReport& report) {
   constexpr const char* kTaken = "The ray tracer took the z-buffer's surfaces: that they agree says nothing.";
   const Comparison& result = report.result;
   const Html pixels{grouped(report.traced.pixels())};
+  const std::string held = traced_words(report.scene.trace), words = held.empty() ? "terms" : held;
   if (result.agrees() && report.from_raster)
     return html(R"(<p class="verdict"><strong>Every pixel is accounted for.</strong><br>
-{} Where the pictures differ, the shadows, mirrors and glass below explain it: 0 unexplained of {} pixels.</p>
+{} Where the pictures differ, the {} below explain it: 0 unexplained of {} pixels.</p>
 )",
-                Html{kTaken}, pixels);
+                Html{kTaken}, words, pixels);
   if (result.agrees())
     return html(R"(<p class="verdict"><strong>Every pixel is accounted for.</strong><br>
-Both renderers see the same surface at the same depth on every sample, and where their pictures differ, the shadows,
-mirrors and glass below explain it: 0 visibility mismatches, 0 unexplained of {} pixels.</p>
+Both renderers see the same surface at the same depth on every sample, and where their pictures differ, the {}
+below explain it: 0 visibility mismatches, 0 unexplained of {} pixels.</p>
 )",
-                pixels);
+                words, pixels);
   Html where;
   if (result.visibility_mismatches > 0)
     where += html(" First mismatch at pixel {},{}.", result.mismatch_x, result.mismatch_y);

@@ -23,13 +23,14 @@ struct Caption {
   std::optional<Times> times;  // absent: no line of times (--no-times)
 };
 
-// What the tracer's picture holds that a z-buffer's does not: "shadows", "mirrors", "glass", of these what is on. Here,
-// since the window's library builds on that of the reports, which have these words too.
+// What the tracer's picture holds that a z-buffer's does not: "shadows", "mirrors", "glass", of these what is on; of eye
+// rays alone (depth 1) the first at most. Here, since the window's library builds on that of the reports, which have
+// these words too.
 inline std::vector<std::string> traced_terms(const TraceSettings& trace) {
   std::vector<std::string> out;
   if (trace.shadows) out.emplace_back("shadows");
-  if (trace.reflection) out.emplace_back("mirrors");
-  if (trace.refraction) out.emplace_back("glass");
+  if (trace.reflection && trace.depth > 1) out.emplace_back("mirrors");
+  if (trace.refraction && trace.depth > 1) out.emplace_back("glass");
   return out;
 }
 

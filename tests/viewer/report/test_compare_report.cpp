@@ -134,4 +134,8 @@ TEST_CASE("compare report: says of the tracer's picture what is on in it") {
   CHECK(caption({"--no-shadows"}) == same + "with mirrors and glass.");
   CHECK(caption({"--no-shadows", "--no-refraction"}) == same + "with mirrors.");
   CHECK(caption({"--local"}) == same + "and nothing besides.");
+  CHECK(caption({"--depth", "2"}) == same + "with shadows, mirrors and glass.");
+  CHECK(caption({"--depth", "1"}) == same + "with shadows.");  // eye rays alone
+  CHECK(contains(read_bytes(here / "out/report.html"),
+                 "where their pictures differ, the shadows\nbelow explain it"));
 }
