@@ -41,6 +41,7 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<ConvertFlags>();
   CLI::App* verb = app.add_subcommand("convert", "the same scene for POV-Ray 3.7");
   add_job_flags(*verb, flags->job);
+  remove_flags(*verb, {"-j", "--isa"});
   for (const char* flag : {"--spp", "--crop"})
     verb->get_option(flag)->group("");  // refused above, with the reason
   verb->add_option("OUT", flags->output, "FILE.pov; its head says how to render it")->required();

@@ -181,6 +181,7 @@ void add_explain_command(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("explain", "why a pixel has its colour, in both renderers, term by term");
   add_job_flags(*verb, flags->job);
+  remove_flags(*verb, {"--crop", "--isa"});  // pixels count from the whole picture's corner
   verb->add_option("--pixel", flags->pixel, "the pixel x,y (y down)")->required();
   verb->add_option("--sample", flags->sample, "one of its samples i,j; else all of them");
   verb->add_option("--set", flags->job.set,

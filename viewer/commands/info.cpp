@@ -96,6 +96,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<JobFlags>();
   CLI::App* verb = app.add_subcommand("info", "validate a scene; what is in it, what it will use");
   add_job_flags(*verb, *flags);
+  remove_flags(*verb, {"--crop", "-j", "--isa"});
   verb->footer(
       "Examples:\n"
       "  sidelight info scenes/showcase.toml\n"

@@ -155,6 +155,10 @@ void add_quiet_flag(CLI::App& verb, JobFlags& flags) {
   verb.add_flag("-q,--quiet", flags.quiet, "quiet: errors only");
 }
 
+void remove_flags(CLI::App& verb, std::initializer_list<const char*> names) {
+  for (const char* name : names) verb.remove_option(verb.get_option(name));
+}
+
 void add_job_flags(CLI::App& verb, JobFlags& flags) {
   verb.add_option("SCENE", flags.scene, "scene file (TOML)")->required();
   verb.add_option("-r,--resolution", flags.size, "picture size WxH, instead of the scene's");

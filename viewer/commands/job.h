@@ -5,6 +5,7 @@
 
 #include <CLI/App.hpp>
 #include <glm/vec2.hpp>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,8 @@ struct JobFlags {
 void add_job_flags(CLI::App& verb, JobFlags& flags);
 void add_render_flags(CLI::App& verb, JobFlags& flags);
 void add_quiet_flag(CLI::App& verb, JobFlags& flags);
+// Takes those back that would change nothing in this verb.
+void remove_flags(CLI::App& verb, std::initializer_list<const char*> names);
 // --primary: who finds what each sample shows (renderers.h, with_primary).
 void add_primary_flag(CLI::App& verb, JobFlags& flags);
 

@@ -45,6 +45,23 @@ TEST_CASE("command line: the flags that diff has for scenes are among those that
   refuse(here, {"diff", "a.exr", "good.toml", "--isa", ""}, "wants a value");
 }
 
+TEST_CASE("command line: a verb has no flag that would change nothing in it") {
+  const Workplace here;
+  const std::string crop = "--crop 0,0,4,4", isa = "--isa scalar", threads = "-j 2";
+  const auto refuse_flags = [&](const Arguments& verb, const std::vector<std::string>& flags) {
+    const std::string help = here.run({verb[0], "--help"}).out;
+    for (const std::string& flag : flags) {
+      const std::string name = flag.substr(0, flag.find(' '));
+      refuse(here, verb + Arguments{name, flag.substr(name.size() + 1)}, name);
+      CHECK_MESSAGE(help.find(name + " ") == std::string::npos, name);
+    }
+    CHECK(help.find("--depth ") != std::string::npos);
+  };
+  refuse_flags({"info", "good.toml"}, {crop, isa, threads});
+  refuse_flags({"explain", "good.toml", "--pixel", "1,1"}, {crop, isa});
+  refuse_flags({"convert", "good.toml", "a.pov"}, {crop, isa, threads});
+}
+
 TEST_CASE("command line: zeros before a number do not make it octal") {
   const Workplace here;
   CHECK(stats(here, {"--spp", "04"}).at("spp") == 4);
