@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/window/inspection.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,11 +13,6 @@ namespace {
 
 // Of all samples together, for the inspector puts all of their words into each frame that the window draws.
 constexpr std::size_t kMostRecords = 8192;
-
-const ExplainedSample& middle_sample(const Inspection& inspection) {
-  const int n = inspection.camera.n;
-  return inspection.samples[static_cast<std::size_t>((n / 2) * n + n / 2)];
-}
 
 glm::dvec3 to_light(const Light& light, const glm::dvec3& point) {
   return light.directional ? -light.direction : glm::normalize(light.position - point);
@@ -69,14 +66,14 @@ bool shown_towards_normal(double normal_to_mirrored, double mirrored_to_viewer, 
 
 std::vector<RaySegment> ray_segments(const Inspection& inspection) {
   std::vector<RaySegment> out;
-  const RayRecord& root = middle_sample(inspection).raytrace;
+  const RayRecord& root = inspection.middle().raytrace;
   const double reach = root.background ? 1 : glm::distance(root.origin, root.local.surface.point);
   add_segments(*inspection.scene, root, 3 * reach, out);
   return out;
 }
 
 std::optional<Lobe> specular_lobe(const Inspection& inspection) {
-  const RayRecord& root = middle_sample(inspection).raytrace;
+  const RayRecord& root = inspection.middle().raytrace;
   if (root.background || root.local.lights.empty()) return {};
   const auto strength = [](const LightRecord& light) {
     return light.specular.x + light.specular.y + light.specular.z;
@@ -111,6 +108,22 @@ std::optional<Inspection> inspect_pixel(const WindowState& state, const Pictures
       out.samples.push_back({i, j, raster::explain(*pictures.renderers.rasterizer, out.camera, X, Y), {}});
     }
   tell_rays(*pictures.renderers.tracer, out);
+  return out;
+}
+
+std::string inspected_words(const Inspection& inspection, Side side) {
+  if (side == Side::raytrace && inspection.too_many_rays)
+    return "too many rays to explain: fewer at a lower depth, key D";
+  const Scene& scene = *inspection.scene;
+  std::string out;
+  const auto tell = [&](const ExplainedSample& sample, const char* which) {
+    if (inspection.samples.size() > 1) out += fmt::format("sample {},{}{}\n", sample.i, sample.j, which);
+    out +=
+        side == Side::raster ? raster_words(scene, sample.raster, 0) : ray_words(scene, sample.raytrace, 0);
+  };
+  tell(inspection.middle(), ", whose ids and rays are shown");
+  for (const ExplainedSample& sample : inspection.samples)
+    if (&sample != &inspection.middle()) tell(sample, "");
   return out;
 }
 

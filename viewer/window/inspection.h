@@ -22,7 +22,11 @@ struct Inspection {
   double asked_ms = 0;  // of the task whose picture it explains
   Camera camera;
   std::vector<ExplainedSample> samples;  // all of the pixel's, row by row
-  bool too_many_rays = false;            // to be told of: then every sample's tree is empty
+  // (n/2, n/2), whose ids and depth the picture has, and whose lobe and rays are drawn.
+  const ExplainedSample& middle() const {
+    return samples[static_cast<std::size_t>((camera.n / 2) * camera.n + camera.n / 2)];
+  }
+  bool too_many_rays = false;  // to be told of: then every sample's tree is empty
 };
 
 // A ray of the pixel, to be drawn into the pictures: from a surface to what it met, or to its light.
@@ -31,11 +35,12 @@ struct RaySegment {
   glm::dvec3 from{0}, to{0};
   SegmentKind kind{};
 };
-// Of the tree under sample (n/2, n/2); the eye ray is a point in this picture and left out. A ray that meets nothing, or
+// Of the tree under the middle sample; the eye ray is a point in this picture and left out. A ray that meets nothing, or
 // goes to a light infinitely far, ends a few times the eye's distance away.
 std::vector<RaySegment> ray_segments(const Inspection& inspection);
 
-// The specular lobe of the first surface under one light, in the plane of the lecture's plot: angles in radians.
+// The specular lobe of the middle sample's first surface under one light, in the plane of the lecture's plot: angles in
+// radians.
 struct Lobe {
   std::size_t light = 0;
   double shininess = 1;
@@ -50,6 +55,10 @@ std::optional<Lobe> specular_lobe(const Inspection& inspection);
 // Of the view that `pictures` show, by the renderers that drew them. Nothing if no pixel is inspected, or if the tracer's
 // picture is still an earlier view's.
 std::optional<Inspection> inspect_pixel(const WindowState& state, const Pictures& pictures);
+
+// What one renderer says of the pixel, in the words of `explain`: of several samples the middle one first, which is told
+// apart.
+std::string inspected_words(const Inspection& inspection, Side side);
 
 // What the words of an inspection leave out of the faults that are on, and what not; empty without any.
 std::string told_of_faults(const Faults& faults);

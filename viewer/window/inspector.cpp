@@ -112,10 +112,6 @@ void draw_lobe(const Canvas& canvas, const Lobe& lobe, const Rect& box) {
   list.AddText(&font, font.FontSize, point(box.x0, box.y1 - 2.2 * line), kText, words.c_str());
 }
 
-std::string sample_heading(const Inspection& inspection, const ExplainedSample& sample) {
-  return inspection.samples.size() > 1 ? fmt::format("sample {},{}\n", sample.i, sample.j) : std::string();
-}
-
 }  // namespace
 
 void draw_inspector(const Canvas& canvas, const WindowContents& contents, const Rect& box,
@@ -123,13 +119,6 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
   const DockWindow window("##inspector", box);
   if (!contents.inspection) return text("looking ...");
   const Inspection& inspection = *contents.inspection;
-  std::string left, right;
-  for (const ExplainedSample& sample : inspection.samples) {
-    left += sample_heading(inspection, sample) + raster_words(*inspection.scene, sample.raster, 0);
-    if (!inspection.too_many_rays)
-      right += sample_heading(inspection, sample) + ray_words(*inspection.scene, sample.raytrace, 0);
-  }
-  if (inspection.too_many_rays) right = "too many rays to explain: fewer at a lower depth, key D";
   std::string heading = fmt::format("pixel {},{}: z-buffer {}", inspection.pixel.x, inspection.pixel.y,
                                     color_text(mean_color(inspection.samples, Side::raster)));
   if (contents.state.faults.any()) heading += "\n" + told_of_faults(contents.state.faults);
@@ -139,7 +128,8 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
   const auto middle = plotted ? static_cast<float>(std::min(260 * canvas.scale(), box.width() / 5.0)) : 0.0f;
   const float side = (whole - middle) / 2 - gap;
   const ImVec2 top = ImGui::GetCursorScreenPos();
-  column(canvas, contents.state, KeyTarget::fragments, side, heading, left);
+  column(canvas, contents.state, KeyTarget::fragments, side, heading,
+         inspected_words(inspection, Side::raster));
   if (plotted) {
     ImGui::SetCursorScreenPos({top.x + side + gap, top.y});
     key_button("y copy as command", out);
@@ -154,7 +144,7 @@ void draw_inspector(const Canvas& canvas, const WindowContents& contents, const 
          inspection.too_many_rays
              ? "ray tracer"
              : "ray tracer " + color_text(mean_color(inspection.samples, Side::raytrace)),
-         right);
+         inspected_words(inspection, Side::raytrace));
 }
 
 }  // namespace sidelight

@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <set>
+
 #include "tests/viewer/window/session.h"
 #include "viewer/window/frames.h"
 #include "viewer/window/offscreen.h"
@@ -20,6 +22,10 @@ TEST_CASE("window: captions say what the pictures hold, and what they wait for")
   auto local = std::make_shared<Scene>(*state.scene);
   local->trace.reflection = local->trace.refraction = false;
   state.scene = state.drawn = local;
+  pictures = render_pictures(picture_task(state));
+  CHECK(show(state, pictures, pictures).panels.at(1).caption.name == "ray tracer: shadows");
+  local->trace.reflection = local->trace.refraction = true;
+  local->trace.depth = 1;  // eye rays alone
   pictures = render_pictures(picture_task(state));
   CHECK(show(state, pictures, pictures).panels.at(1).caption.name == "ray tracer: shadows");
   local->trace.shadows = false;
@@ -114,6 +120,26 @@ TEST_CASE("window: the records of the inspected pixel are those of the view") {
     REQUIRE(contents.inspection());
     CHECK(contents.inspection()->samples[0].raytrace.origin == session.state().camera.eye);
   }
+}
+
+TEST_CASE("window: the inspector begins with the sample whose ids and rays are shown, and has them all") {
+  const Workplace here;
+  WindowState state = open_state(here / "good.toml", opener(48, 36));
+  state.n = 3;
+  state.inspected = glm::ivec2(20, 20);
+  const std::optional<Inspection> inspection = inspect_pixel(state, render_pictures(picture_task(state)));
+  REQUIRE(inspection);
+  for (const Side side : {Side::raster, Side::raytrace}) {
+    const std::string words = inspected_words(*inspection, side);
+    CHECK(words.starts_with("sample 1,1, whose ids and rays are shown\n"));
+    std::set<std::string> samples;
+    for (const std::string& line : lines(words))
+      if (line.starts_with("sample ")) samples.insert(line.substr(0, 10));
+    CHECK(samples.size() == 9);
+  }
+  state.n = 1;
+  const auto one = inspect_pixel(state, render_pictures(picture_task(state)));
+  CHECK_FALSE(inspected_words(*one, Side::raster).starts_with("sample"));
 }
 
 TEST_CASE("window: faults on purpose are said in the smallest window") {
