@@ -146,4 +146,16 @@ void make_folder(const std::string& path) {
   if (error) throw OutputError(printable(path, 1000) + ": cannot make the folder: " + error.message());
 }
 
+OutputFolder::OutputFolder(const std::string& path) {
+  std::error_code ignored;
+  for (fs::path at = path; !at.empty() && !fs::exists(at, ignored); at = at.parent_path())
+    made_.push_back(at.string());
+  make_folder(path);
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code not_empty;
+  for (const std::string& folder : made_) fs::remove(folder, not_empty);
+}
+
 }  // namespace sidelight

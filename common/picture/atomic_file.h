@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sidelight {
 
@@ -26,5 +27,17 @@ using AppendText = std::function<void(std::string_view)>;
 void write_text_file(const std::string& path, const std::function<void(const AppendText&)>& produce);
 // Makes the folder, and its parents, if it is not there. Throws OutputError.
 void make_folder(const std::string& path);
+
+// The same for a run that may be broken off: what it made goes with it where nothing was written there.
+class OutputFolder {
+ public:
+  explicit OutputFolder(const std::string& path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::vector<std::string> made_;  // innermost first
+};
 
 }  // namespace sidelight

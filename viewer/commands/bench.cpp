@@ -230,7 +230,7 @@ int write_outputs(const BenchResult& result, const std::string& folder) {
 
 int run_bench(const BenchFlags& flags) {
   const std::vector<Config> configs = configs_of(flags);
-  make_folder(flags.folder);
+  const OutputFolder folder(flags.folder);
   BenchResult result = sweep(flags, configs);
   result.command = command_of(flags);
   judge(result);

@@ -188,7 +188,7 @@ int run_compare(const CompareFlags& flags) {
   job.options.layers = raytrace.layers;
   job.options.keep_samples = true;
   check_memory(job, job.options.faults.any() ? kSpoiledPairs : job.flags.from_raster() ? 2 : 1);
-  make_folder(flags.folder);
+  const OutputFolder folder(flags.folder);
 
   const TimedFrame rastered = render_all_layers(job, raster);
   const TimedFrame traced = render_all_layers(job, raytrace);

@@ -47,8 +47,24 @@ TEST_CASE("exit code 130: interrupted in the middle of a picture") {
   interrupt(here, Arguments{"render", "good.toml", "-o", "a.exr"} + large, SIGINT, kWorking);
   interrupt(here, Arguments{"render", "good.toml", "-o", "a.exr"} + large, SIGTERM, kWorking);
   CHECK(here.made().empty());
-  interrupt(here, Arguments{"compare", "good.toml", "-o", "out"} + large, SIGINT, kWorking);
-  CHECK(here.names("out").empty());
+}
+
+TEST_CASE(
+    "exit code 130: an interrupted comparison leaves no folder that it made, and those that were there") {
+  const Workplace here;
+  const auto compare_into = [&](const std::string& folder) {
+    interrupt(here, {"compare", "good.toml", "-r", "2000x1500", "--spp", "16", "-o", folder}, SIGINT,
+              kWorking);
+  };
+  compare_into("out");
+  compare_into("new/out/");
+  CHECK(here.made().empty());
+  for (const char* folder : {"empty", "full", "full/inner"}) std::filesystem::create_directory(here / folder);
+  compare_into("empty");
+  compare_into("full/inner/out");
+  CHECK(here.made() == std::vector<std::string>{"empty", "full"});
+  CHECK(here.names("full") == std::vector<std::string>{"inner"});
+  CHECK(here.names("full/inner").empty());
 }
 
 TEST_CASE("exit code 130: interrupted between the samples that explain tells of") {
