@@ -103,6 +103,24 @@ bool write_side_by_side(const Job& job, const std::string& folder, const TimedFr
   return true;
 }
 
+constexpr std::array<const char*, 4> kLedgerPictures{"ledger_1_raster", "ledger_2_minus_shadow",
+                                                     "ledger_3_plus_reflection", "ledger_4_plus_refraction"};
+
+// What write_all_modes wrote for an earlier run, and the folder if it held nothing else.
+void remove_all_modes(const std::string& folder) {
+  std::vector<std::string> names(kLedgerPictures.begin(), kLedgerPictures.end());
+  names.emplace_back("signed_difference");
+  for (const std::string_view layer : kLayerNames)
+    for (const char* renderer : {"raster", "raytrace"})
+      names.push_back(fmt::format("{}_{}", renderer, layer));
+  std::error_code none_there;
+  bool removed = false;
+  for (const std::string& name : names)
+    removed |= std::filesystem::remove(fmt::format("{}/{}.png", folder, name), none_there);
+  if (removed && !std::filesystem::is_symlink(folder, none_there))
+    std::filesystem::remove(folder, none_there);
+}
+
 void write_layers(const Job& job, const std::string& folder, const Renderer& renderer, const Frame& frame) {
   const Metadata metadata = job_metadata(job, std::string(renderer.name));
   for (int i = 0; i < kLayers; ++i) {
@@ -128,10 +146,8 @@ void write_all_modes(const Job& job, const std::string& folder, const Renderer& 
   const auto write = [&](const std::string& name, std::span<const glm::vec3> linear) {
     write_png(folder + "/" + name, to_image8(linear, traced.width(), traced.height()), both);
   };
-  constexpr std::array<const char*, 4> kSteps{"1_raster", "2_minus_shadow", "3_plus_reflection",
-                                              "4_plus_refraction"};
   const auto sums = ledger_sums(rastered, traced);
-  for (std::size_t k = 0; k < sums.size(); ++k) write(fmt::format("ledger_{}.png", kSteps[k]), sums[k]);
+  for (std::size_t k = 0; k < sums.size(); ++k) write(fmt::format("{}.png", kLedgerPictures[k]), sums[k]);
   write("signed_difference.png", signed_difference(rastered, traced));
 }
 
@@ -197,6 +213,7 @@ int run_compare(const CompareFlags& flags) {
   write_pictures(job, flags.folder, rastered, traced);
   write_text_file(flags.folder + "/compare.json", comparison_json(job, result, spoiled, rastered, traced));
   write_text_file(flags.folder + "/report.html", report(job, result, spoiled, rastered, traced));
+  remove_all_modes(flags.folder + "/modes");
   if (flags.all_modes)
     write_all_modes(job, flags.folder + "/modes", raster, rastered.frame, raytrace, traced.frame);
   if (!flags.job.quiet) print_summary(job, result, spoiled);

@@ -56,6 +56,23 @@ TEST_CASE("all modes: every layer of both renderers and every step of the ledger
   CHECK(apart(here / "out/modes/raster_object.png", here / "out/modes/raytrace_object.png") == 0);
 }
 
+TEST_CASE("all modes: those of an earlier comparison do not stay beside a later one") {
+  const Workplace here;
+  const Arguments command{"compare", "good.toml", "-r", "16x12", "-q", "-o", "out"};
+  REQUIRE(here.run(command + Arguments{"--all-modes"}).code == 0);
+  REQUIRE(here.names("out/modes").size() > 5);
+  REQUIRE(here.run(command + Arguments{"--all-modes", "--primary", "raster"}).code == 0);
+  CHECK_FALSE(std::filesystem::exists(here / "out/modes/raytrace_cost.png"));
+  REQUIRE(here.run(command).code == 0);
+  CHECK_FALSE(std::filesystem::exists(here / "out/modes"));
+
+  // What it did not write itself stays.
+  REQUIRE(here.run(command + Arguments{"--all-modes"}).code == 0);
+  write_bytes(here / "out/modes/notes.txt", "mine");
+  REQUIRE(here.run(command).code == 0);
+  CHECK(here.names("out/modes") == std::vector<std::string>{"notes.txt"});
+}
+
 TEST_CASE("all modes: with the z-buffer's surfaces every layer but the cost, which is not made then") {
   const Workplace here;
   const Arguments command{"compare", "good.toml", "-r", "32x24", "-q", "--no-times", "--all-modes", "-o"};
