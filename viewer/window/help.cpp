@@ -16,15 +16,43 @@
 namespace sidelight {
 namespace {
 
-// A paragraph a line, wrapped to the window; nothing in it can steer what is drawn.
-void paragraphs(const std::string& words) {
-  ImGui::PushTextWrapPos(0);
+// A line each; nothing in them can steer what is drawn.
+std::vector<std::string> paragraphs_of(const std::string& words) {
+  std::vector<std::string> out;
   for (std::size_t at = 0; at <= words.size();) {
     const std::size_t end = std::min(words.find('\n', at), words.size());
-    text(printable(words.substr(at, end - at), 4000));
+    out.push_back(printable(words.substr(at, end - at), 4000));
     at = end + 1;
   }
+  return out;
+}
+
+// Wrapped to the window, in whole rows, so many as fit into `height`, but one at least. Where there are more, they can be
+// scrolled to, and an ellipsis behind the last row in sight says so, in a margin of its own.
+void paragraphs(const WindowState& state, const std::string& words, float height) {
+  const float row = ImGui::GetTextLineHeight(), room = row * std::max(1.0f, std::floor(height / row));
+  const std::vector<std::string> all = paragraphs_of(words);
+  const auto height_at = [&](float width) {
+    float sum = 0;
+    for (const std::string& each : all) sum += ImGui::CalcTextSize(each.c_str(), nullptr, false, width).y;
+    return sum;
+  };
+  ImGui::BeginChild("##words", ImVec2(0, room), false, ImGuiWindowFlags_NoScrollbar);
+  follow_keys(state, KeyTarget::lesson, ImGui::GetStyle().WindowPadding.x / 2);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
+  const char* const dots = ellipsis(*ImGui::GetFont());
+  const float whole = ImGui::GetContentRegionAvail().x;
+  const float width = height_at(whole) > room ? std::max(1.0f, whole - ImGui::CalcTextSize(dots).x) : whole;
+  ImGui::PushTextWrapPos(width);
+  for (const std::string& each : all) text(each);
   ImGui::PopTextWrapPos();
+  // Half a row may be lost to rounding.
+  if (width < whole && ImGui::GetScrollY() + room < height_at(width) - row / 2) {
+    const ImVec2 corner = ImGui::GetWindowPos();
+    ImGui::GetWindowDrawList()->AddText({corner.x + width, corner.y + room - row}, kText, dots);
+  }
+  ImGui::PopStyleVar();
+  ImGui::EndChild();
 }
 
 // What is under the cursor, in the words of the footer.
@@ -119,20 +147,26 @@ std::string lesson_text(const WindowState& state) {
   return scene.lesson.empty() ? "This scene has no lesson." : scene.lesson;
 }
 
+// The label, or the key alone that it begins with.
+std::string label_of(const Button& button, bool brief) {
+  return std::string(button.label).substr(0, brief ? 1 : std::string::npos);
+}
+
 }  // namespace
 
-int button_rows(const WindowState& state, int width, double scale) {
+int buttons_height(const WindowState& state, int width, double scale, bool brief) {
   constexpr double kAround = 2 * 9;  // FramePadding of canvas.cpp
   std::vector<double> widths;
   for (const Button& each : kButtons)
     if (is_there(state, each))
-      widths.push_back(kAround * scale +
-                       text_width_bound(std::string_view(each.label).size(), kSmallText * scale));
-  return flow_rows(widths, 8 * scale, width);
+      widths.push_back(kAround * scale + text_width_bound(label_of(each, brief).size(), kSmallText * scale));
+  const auto pixels = [&](double length) { return static_cast<int>(std::lround(length * scale)); };
+  return pixels(kButtonLine) + pixels(1.8 * kSmallText) * (flow_rows(widths, 8 * scale, width) - 1);
 }
 
 void draw_buttons(const Canvas& canvas, const WindowContents& contents, const Rect& box,
                   std::vector<Command>& out) {
+  const bool brief = box.height() < buttons_height(contents.state, box.width(), canvas.scale());
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0, 0, 0, 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, point(0, 6 * canvas.scale()));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
@@ -142,10 +176,11 @@ void draw_buttons(const Canvas& canvas, const WindowContents& contents, const Re
     const float padding = 2 * ImGui::GetStyle().FramePadding.x;
     for (const Button& each : kButtons) {
       if (!is_there(contents.state, each)) continue;
-      if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(each.label).x + padding > width) ImGui::NewLine();
+      const std::string label = label_of(each, brief);
+      if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(label.c_str()).x + padding > width) ImGui::NewLine();
       const bool on = each.is_on(contents.state);
       if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.26f, 0.47f, 0.72f, 1));
-      key_button(each.label, out);
+      key_button(label.c_str(), out);
       if (on) ImGui::PopStyleColor();
       ImGui::SameLine();
     }
@@ -177,9 +212,10 @@ int lesson_rows(const WindowState& state, int width, double scale) {
 void draw_lesson(const Canvas& canvas, const WindowContents& contents, const Rect& box) {
   const WindowState& state = contents.state;
   const DockWindow window("##lesson", box);
-  follow_keys(state, KeyTarget::lesson);
+  const float under = state.step >= 0 ? ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y : 0;
+  const float height = ImGui::GetContentRegionAvail().y - under;
   ImGui::PushFont(state.step >= 0 ? canvas.fonts().title : canvas.fonts().caption);
-  paragraphs(lesson_text(state));
+  paragraphs(state, lesson_text(state), height);
   ImGui::PopFont();
   if (state.step < 0) return;
   text(fmt::format("step {} of {}{}", state.step + 1, state.opened.scene.steps.size(),

@@ -24,7 +24,7 @@ Measures measure(const LayoutOptions& options) {
           line(options.title, 1.6 * kTitleText),
           pixels(1.5 * kCaptionText),
           line(options.times, 1.5 * kSmallText),
-          line(options.footer, 2.4 * kSmallText)};
+          line(options.footer, kButtonLine)};
 }
 
 // Room for a caption as long as ours are.

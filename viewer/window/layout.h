@@ -24,7 +24,8 @@ namespace sidelight {
 
 // Font heights in device pixels at scale 1.
 inline constexpr double kTitleText = 28, kCaptionText = 21, kSmallText = 17;
-inline constexpr double kLegendLine = 1.4 * kCaptionText;
+// The rows of legend and buttons, and what is left free under a legend.
+inline constexpr double kLegendLine = 1.4 * kCaptionText, kLegendFoot = 8, kButtonLine = 2.4 * kSmallText;
 
 // Which lines there are room for, and how large a pixel of text is (2 on a high-DPI screen).
 struct LayoutOptions {

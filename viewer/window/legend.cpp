@@ -144,7 +144,7 @@ int legend_height(const WindowState& state, int width, double scale, bool brief)
   const bool histogram =
       state.mode == Mode::difference && !brief && beside >= *std::max_element(widths.begin(), widths.end());
   const double words = kLegendLine * flow_rows(widths, kGap * height, histogram ? beside : width);
-  return static_cast<int>(std::lround(scale * (std::max(words, histogram ? kHistogram : 0) + 8)));
+  return static_cast<int>(std::lround(scale * (std::max(words, histogram ? kHistogram : 0) + kLegendFoot)));
 }
 
 void draw_legend(const Canvas& canvas, const WindowContents& contents, const Rect& whole) {
@@ -166,11 +166,19 @@ void draw_legend(const Canvas& canvas, const WindowContents& contents, const Rec
   for (const Entry& entry : entries) {
     const ImVec2 size = font.CalcTextSizeA(font.FontSize, 1e6f, 0, entry.text.c_str());
     const double width = kSwatch * height + static_cast<double>(size.x);
-    if (at.x > box.x0 && at.x + width > box.x1) at = {box.x0, at.y + line};
+    if (at.x > box.x0 && at.x + width > box.x1) {
+      if (at.y + line + height > box.y1) {  // the rest is left out
+        const double end = at.x - kGap * height;
+        if (end <= box.x1)
+          list.AddText(&font, font.FontSize, point(end + 0.1 * height, at.y), kText, ellipsis(font));
+        break;
+      }
+      at = {box.x0, at.y + line};
+    }
     list.AddRectFilled(point(at + glm::dvec2(0, 0.15 * height)), point(at + glm::dvec2(0.8, 0.95) * height),
                        entry.color);
-    list.AddText(&font, font.FontSize, point(at + glm::dvec2(kSwatch * height, 0)), kText,
-                 entry.text.c_str());
+    const int left = static_cast<int>(std::lround(at.x + kSwatch * height)), top = static_cast<int>(at.y);
+    draw_line(list, font, {left, top, box.x1, top + static_cast<int>(std::ceil(height))}, kText, entry.text);
     at.x += width + kGap * height;
   }
 }

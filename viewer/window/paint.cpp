@@ -21,7 +21,7 @@ std::string ellipsised(const ImFont& font, const std::string& text, float width)
     return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, part.data(), part.data() + part.size()).x;
   };
   if (width_of(text) <= width) return text;
-  const std::string_view dots = font.FindGlyphNoFallback(0x2026) != nullptr ? "\u2026" : "...";
+  const std::string_view dots = ellipsis(font);
   const char* cut = text.data();
   font.CalcTextSizeA(font.FontSize, std::max(0.0f, width - width_of(dots)), 0, text.data(), end, &cut);
   if (cut == text.data()) return {};
@@ -36,6 +36,10 @@ void text(std::string_view words, ImU32 color) {
   ImGui::PushStyleColor(ImGuiCol_Text, color);
   ImGui::TextUnformatted(words.data(), words.data() + words.size());
   ImGui::PopStyleColor();
+}
+
+const char* ellipsis(const ImFont& font) {
+  return font.FindGlyphNoFallback(0x2026) != nullptr ? "\u2026" : "...";
 }
 
 void draw_line(ImDrawList& list, const ImFont& font, const Rect& box, ImU32 color, const std::string& text) {

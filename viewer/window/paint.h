@@ -32,6 +32,9 @@ inline ImVec2 point(glm::dvec2 p) { return point(p.x, p.y); }
 // Of the widget window that is being drawn.
 void text(std::string_view words, ImU32 color = kText);
 
+// What stands where text was left out: U+2026, or three dots where the font has none.
+const char* ellipsis(const ImFont& font);
+
 // One line of text, in the middle of the height of its box, clipped to it; what is too long ends in an ellipsis.
 void draw_line(ImDrawList& list, const ImFont& font, const Rect& box, ImU32 color, const std::string& text);
 

@@ -131,27 +131,44 @@ WindowLayout window_layout(const WindowState& state, glm::ivec2 size, double sca
     out.controls = {size.x - width, 0, size.x, size.y};
     room.x -= width;
   }
-  const int margin = pixels(24), line = pixels(2.4 * kSmallText);
-  const int footer = line + pixels(1.8 * kSmallText) * (button_rows(state, room.x - 2 * margin, scale) - 1);
-  int lesson = state.lesson ? pixels(lesson_height(state, room.x - margin, scale)) : 0;
-  int inspector = state.inspected ? std::max(pixels(120), size.y * 2 / 5) : 0;
-  const int slow = state.slow ? pixels(2.6 * kSmallText) : 0;
-  int legend = legend_height(state, room.x - 2 * margin, scale);
+  const int margin = pixels(24), line = pixels(kButtonLine), width = room.x - 2 * margin;
+  int footer = buttons_height(state, width, scale);
+  const int whole_lesson = state.lesson ? pixels(lesson_height(state, room.x - margin, scale)) : 0;
+  int lesson = whole_lesson, inspector = state.inspected ? std::max(pixels(120), size.y * 2 / 5) : 0;
+  int slow = state.slow ? pixels(2.6 * kSmallText) : 0;
+  int legend = legend_height(state, width, scale);
 
-  // Words give way to the pictures: first the histogram and the lines above them, then what can be scrolled.
+  // Words give way to the pictures, in this order: the histogram; the times; the title; of inspector and lesson, which can
+  // be scrolled, all but a row; the buttons' words, not their keys; all but a row of the legend; the inspector; the lesson;
+  // the legend. Where there is no room for them beside the captions, at last the buttons.
   LayoutOptions options{scale, true, state.opened.times, true};
+  const auto head = [&] { return layout_size({0, 0}, options).y - line; };
   const auto missing = [&] {
-    const int head = layout_size({0, 0}, options).y - line, pictures = size.y * 3 / 10;
-    return head + pictures + legend + slow + inspector + lesson + footer - size.y;
+    return head() + size.y * 3 / 10 + legend + slow + inspector + lesson + footer - size.y;
   };
-  if (missing() > 0) legend = legend_height(state, room.x - 2 * margin, scale, true);
+  const auto shrink = [&](int& part, int least, double share) {
+    if (missing() > 0) part = std::max(std::min(part, least), static_cast<int>(part - share * missing()));
+  };
+  // With the padding and the spacing of canvas.cpp.
+  const int row_of_lesson = pixels(state.step >= 0 ? kTitleText + kSmallText + 27 : kCaptionText + 23);
+  const int row_of_inspector = pixels(kCaptionText + kSmallText + 26);
+  if (missing() > 0) legend = legend_height(state, width, scale, true);
   if (missing() > 0) options.times = false;
   if (missing() > 0 && !state.faults.any()) options.title = false;  // faults are always said
-  if (const int more = missing(); more > 0 && lesson + inspector > 0) {
-    const double kept = std::max(0.0, 1 - static_cast<double>(more) / (lesson + inspector));
-    lesson = static_cast<int>(kept * lesson);
-    inspector = static_cast<int>(kept * inspector);
+  shrink(inspector, row_of_inspector, static_cast<double>(inspector) / std::max(1, inspector + lesson));
+  shrink(lesson, row_of_lesson, 1);
+  shrink(inspector, row_of_inspector, 1);
+  if (missing() > 0) footer = buttons_height(state, width, scale, true);
+  if (missing() > 0 && legend > 0) {
+    const double rows = std::floor((legend - missing() - pixels(kLegendFoot)) / (kLegendLine * scale));
+    legend = std::min(legend, pixels(kLegendLine * std::max(1.0, rows) + kLegendFoot));
   }
+  if (missing() > 0) inspector = 0;
+  if (missing() < 0) lesson = std::min(whole_lesson, lesson - missing());
+  if (missing() > 0) lesson = 0;
+  if (missing() > 0) legend = 0;
+  if (head() + slow + footer > size.y) slow = 0;
+  if (head() + footer > size.y) footer = 0;
 
   int bottom = size.y - footer;
   const auto take = [&](int height) {
@@ -209,13 +226,14 @@ std::vector<Command> draw_window(const Canvas& canvas, const WindowContents& con
   return out;
 }
 
-void follow_keys(const WindowState& state, KeyTarget target) {
+void follow_keys(const WindowState& state, KeyTarget target, float around) {
   if (key_target(state) != target) return;
   const bool focused = ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows);
   if (!focused && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) ImGui::SetWindowFocus();
   const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
-  list.AddRect(low, {low.x + size.x, low.y + size.y}, kText, 4, 0, 3);
+  list.AddRect({low.x - around, low.y - around}, {low.x + size.x + around, low.y + size.y + around}, kText, 4,
+               0, 3);
 }
 
 void key_button(const char* label, std::vector<Command>& out) {

@@ -46,11 +46,11 @@ std::vector<Command> draw_window(const Canvas& canvas, const WindowContents& con
 // The panel under a point of the window: 0, 1, or -1.
 int panel_at(const WindowLayout& layout, glm::dvec2 point);
 
-// How many rows the parts take that flow: the buttons, the lines of the lesson's text.
-int button_rows(const WindowState& state, int width, double scale);
-int lesson_rows(const WindowState& state, int width, double scale);
-// The legend's, in device pixels; 0 where there is none. `brief`: its words only, without the histogram.
+// What the parts take that flow: the buttons and the legend in device pixels, 0 where there is none, the lesson's text in
+// rows. `brief`: the buttons' keys without their words; the legend's words without the histogram.
+int buttons_height(const WindowState& state, int width, double scale, bool brief = false);
 int legend_height(const WindowState& state, int width, double scale, bool brief = false);
+int lesson_rows(const WindowState& state, int width, double scale);
 
 // Parts of draw_window, in files of their own. Each is called where its rectangle is not empty.
 void draw_marks(const Canvas& canvas, const WindowContents& contents, const WindowLayout& layout);
@@ -69,8 +69,8 @@ void draw_buttons(const Canvas& canvas, const WindowContents& contents, const Re
 // The rays have the colours of their causes.
 std::uint32_t segment_color(SegmentKind kind);
 
-// Within a widget window: it has the keyboard, and says so by its frame, if keys go to `target`.
-void follow_keys(const WindowState& state, KeyTarget target);
+// Within a widget window: it has the keyboard, and says so by a frame, so far around it, if keys go to `target`.
+void follow_keys(const WindowState& state, KeyTarget target, float around = 0);
 
 // A button that presses the key its label begins with.
 void key_button(const char* label, std::vector<Command>& out);
