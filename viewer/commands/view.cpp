@@ -97,6 +97,8 @@ int run_view(const ViewFlags& flags) {
   const Pictures pictures = render_pictures(picture_task(state));
   write_png(flags.screenshot, screenshot(state, pictures, window.x, window.y),
             picture_metadata(opening, *state.scene, state.faults, "raster, raytrace"));
+  if (!flags.job.quiet)
+    for (const std::string& line : left_out(state, window.x, window.y)) fmt::print(stderr, "{}\n", line);
   // The window shows such a picture, too; but who asked for one without looking must learn of it.
   check_finite(*pictures.rastered, "z-buffer");
   check_finite(*pictures.traced, "ray tracer");

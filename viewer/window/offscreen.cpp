@@ -95,6 +95,23 @@ Image8 screenshot(const WindowState& state, const Pictures& pictures, int width,
   });
 }
 
+std::vector<std::string> left_out(const WindowState& state, int width, int height) {
+  std::vector<std::string> out;
+  const auto look = [&](const char* name, Rect WindowLayout::*part) {
+    const auto shown = [&](int at) {
+      return (window_layout(state, {width, at}, state.text_scale).*part).height() > 0;
+    };
+    int from = height;
+    while (from < kLongestOffscreen && !shown(from)) ++from;
+    if (from == height) return;
+    out.push_back(
+        fmt::format("no room for the {} at {}x{}: shown from {}x{} on", name, width, height, width, from));
+  };
+  if (state.inspected) look("inspector", &WindowLayout::inspector);
+  if (state.lesson) look("lesson", &WindowLayout::lesson);
+  return out;
+}
+
 #ifdef SIDELIGHT_HAVE_OSMESA
 namespace {
 

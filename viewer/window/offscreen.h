@@ -12,6 +12,8 @@
 
 #include <functional>
 #include <glm/vec2.hpp>
+#include <string>
+#include <vector>
 
 #include "common/picture/image_io.h"
 #include "viewer/window/panels.h"
@@ -36,5 +38,9 @@ glm::ivec2 side_by_side_size(glm::ivec2 picture, const Labels& labels);
 
 // What a window of this size shows of the state, with everything drawn to the end: the window's own pixels.
 Image8 screenshot(const WindowState& state, const Pictures& pictures, int width, int height);
+
+// Which of the panels that are open, inspector and lesson, have no room in that window, a line for each: its name and the
+// size from which on it is shown. Needs no OSMesa.
+std::vector<std::string> left_out(const WindowState& state, int width, int height);
 
 }  // namespace sidelight

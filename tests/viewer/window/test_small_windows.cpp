@@ -69,7 +69,7 @@ TEST_CASE("small windows: the pictures keep a part of them, whatever is open") {
   }
 }
 
-TEST_CASE("small windows: a panel that is shown has room for a row") {
+TEST_CASE("small windows: a panel that is shown has room for a row, and the others are named with a size") {
   const Workplace here;
   WindowState state = lesson_state(here);
   state.lesson = true;
@@ -79,6 +79,11 @@ TEST_CASE("small windows: a panel that is shown has room for a row") {
     for (const Rect& box : {layout.inspector, layout.lesson})
       CHECK((box.height() == 0 || box.height() >= 40));  // padding and a row
   }
+  const std::vector<std::string> small = left_out(state, 400, 280);
+  REQUIRE(small.size() == 2);
+  CHECK(small[0].starts_with("no room for the inspector at 400x280: shown from 400x"));
+  CHECK(small[1].starts_with("no room for the lesson at 400x280: shown from 400x"));
+  CHECK(left_out(state, 1352, 648).empty());
 }
 
 #ifdef SIDELIGHT_HAVE_OSMESA
@@ -132,6 +137,27 @@ TEST_CASE("small windows: words that have no room end in an ellipsis, in whole r
     CHECK(bright_bytes(window, {box.x0 + 2, last + kRow + 1, box.x1 - 2, box.y1 - 2}) ==
           0);  // no part of a row
   }
+}
+
+TEST_CASE("small windows: view says what a screenshot has no room for, and from which size on it has") {
+  const Workplace here;
+  const auto shot = [&](int height, const Arguments& more) {
+    const Outcome outcome =
+        here.run(Arguments{"view", "good.toml", "-r", "48x36", "--inspect", "20,20", "--size",
+                           fmt::format("320x{}", height), "--screenshot", "a.png"} +
+                 more);
+    CHECK(outcome.code == 0);
+    return outcome.err;
+  };
+  const std::string said = shot(240, {}), begin = "no room for the inspector at 320x240: shown from 320x";
+  CAPTURE(said);
+  CHECK(lines(said).size() == 1);
+  REQUIRE(said.starts_with(begin));
+  const int from = std::stoi(said.substr(begin.size()));
+  CHECK(from > 240);
+  CHECK(shot(from, {}).empty());
+  CHECK(lines(shot(from - 1, {})).size() == 1);
+  CHECK(shot(240, {"-q"}).empty());
 }
 
 #endif
