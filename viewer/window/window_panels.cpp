@@ -238,7 +238,7 @@ void follow_keys(const WindowState& state, KeyTarget target, float around) {
 
 void key_button(const char* label, std::vector<Command>& out) {
   if (ImGui::Button(label))
-    out.push_back([key = std::string_view(label, 1)](Session& session) { session.press(key); });
+    out.push_back([key = std::string(label, 1)](Session& session) { session.press(key); });
 }
 
 DockWindow::DockWindow(const char* name, const Rect& box, bool scrollbar) {
