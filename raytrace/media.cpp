@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/model/solid.h"
+
 namespace sidelight::raytrace {
 namespace {
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/model/place.h"
+#include "common/model/solid.h"
 #include "common/picture/pixel.h"
 #include "raytrace/raytrace.h"
 

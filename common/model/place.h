@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a ray met a surface, where rays start that leave it, and which points a solid contains. In double; shared by
-// the tracer, the z-buffer and both references, as visibility.h is.
+// Where a ray met a surface, and where rays start that leave it. In double; shared by the tracer, the z-buffer and both
+// references, as visibility.h is.
 #pragma once
 
 #include <array>
@@ -46,11 +46,5 @@ bool stands_near(const Scene& scene, std::uint32_t primitive, const Ray& ray, co
 // `near`: the primitives of which stands_near() is true, ascending.
 glm::dvec3 leaving_point(const Scene& scene, const Ray& ray, const Hit& hit, const Place& place,
                          std::span<const std::uint32_t> near, VisibilityCounts& counts);
-
-// ---- Solids ----
-
-// Whether a solid object (Object::solid) contains the point: by distance, side, or, for a mesh, winding number
-// (A. van Oosterom and J. Strackee, "The Solid Angle of a Plane Triangle", 1983). O(triangles).
-bool contains(const Scene& scene, const Object& solid, const glm::dvec3& point);
 
 }  // namespace sidelight

@@ -14,7 +14,7 @@
 #include <set>
 #include <utility>
 
-#include "common/model/place.h"
+#include "common/model/solid.h"
 #include "common/scene/camera.h"
 #include "common/scene/pov_mesh.h"
 
