@@ -75,6 +75,18 @@ std::uint64_t lanes_unlike_scalar() {
 
 }  // namespace
 
+// (1 + u)² - (1 + 2 u) is u²; a product that is rounded first loses it.
+TEST_CASE_TEMPLATE("fused() rounds once, in lanes too", T, float, double) {
+  constexpr T u = Limits<T>::epsilon();
+  const auto rest = [](auto one_and) {
+    using F = decltype(one_and);
+    return fused<F>(one_and, one_and, F(-1 - 2 * u));
+  };
+  CHECK(rest(1 + u) == u * u);
+  const stdx::native_simd<T> lanes = rest(stdx::native_simd<T>(1 + u));
+  CHECK(stdx::all_of(lanes == u * u));
+}
+
 TEST_CASE_TEMPLATE("lane_exp is within 2 ulp from underflow to overflow", T, float, double) {
   Random random(1);
   double worst = 0;
