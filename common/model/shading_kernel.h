@@ -48,6 +48,7 @@ class BatchMaterials {
       fill(v, [&](const auto& of) { return generate<F>([&](int lane) { return of(material(lane)); }); });
     }
   }
+  bool one() const { return one_; }      // the same in all entries
   bool shiny() const { return shiny_; }  // any of them
   const MaterialLanes<F>& operator[](std::size_t v) const { return of_vector_[one_ ? 0 : v]; }
 
@@ -106,16 +107,32 @@ void view_light(const ShadingLight<float>& light, const ShadingBatch& batch,
                                            : F(LightLanes<F>::kNone);
 }
 
-// The last step: the term, but for what only explanations ask for.
+// A light's colour as the materials of a vector's entries give it back, without N.L and the highlight.
 template <class F>
-LightTerm<F> light_term_of(const ShadingLight<float>& light, const LightLanes<F>& lanes,
-                           const BatchMaterials<F>& materials, std::size_t v) {
+struct LightColors {
+  Vec3<F> diffuse, specular;
+};
+template <class F>
+LightColors<F> light_colors(const ShadingLight<float>& light, const LightLanes<F>& lanes,
+                            const BatchMaterials<F>& materials, std::size_t v) {
   const Vec3<F> here = light_here<F>(light, lanes.arriving[v], lanes.cosine[v]);
-  LightTerm<F> term;
-  term.diffuse = lanes.cosine[v] * (here * vec(materials[v].diffuse));
-  const bool shiny = materials.shiny() && any<F>(lanes.log[v] > F(LightLanes<F>::kNone));
-  term.specular = (shiny ? lane_exp<F>(lanes.log[v]) : F(0)) * (here * vec(materials[v].specular));
-  return term;
+  return {here * vec(materials[v].diffuse), here * vec(materials[v].specular)};
+}
+
+// The last step, for each vector: visit(v, the term, but for what only explanations ask for).
+template <class F, class Visit>
+void for_each_term(const ShadingLight<float>& light, const LightLanes<F>& lanes,
+                   const BatchMaterials<F>& materials, std::size_t vectors, const Visit& visit) {
+  const bool one = materials.one() && !light.attenuated;  // colour
+  LightColors<F> colors = light_colors(light, lanes, materials, 0);
+  for (std::size_t v = 0; v < vectors; ++v) {
+    if (!one) colors = light_colors(light, lanes, materials, v);
+    const bool shiny = materials.shiny() && any<F>(lanes.log[v] > F(LightLanes<F>::kNone));
+    LightTerm<F> term;
+    term.diffuse = lanes.cosine[v] * colors.diffuse;
+    term.specular = (shiny ? lane_exp<F>(lanes.log[v]) : F(0)) * colors.specular;
+    visit(v, term);
+  }
 }
 
 // Sums over the lights, of each vector of a batch.
@@ -154,14 +171,13 @@ void shade_batch(const ShadingTables& tables, ShadingBatch& batch) {
   LightLanes<F> lanes;
   for (const ShadingLight<float>& light : tables.lights) {
     view_light(light, batch, materials, vectors, lanes);
-    for (std::size_t v = 0; v < vectors; ++v) {
-      const LightTerm<F> term = light_term_of(light, lanes, materials, v);
+    for_each_term(light, lanes, materials, vectors, [&](std::size_t v, const LightTerm<F>& term) {
       add(sum[v], term.total());
       if constexpr (kParts) {
         add(diffuse[v], term.diffuse);
         add(specular[v], term.specular);
       }
-    }
+    });
   }
   for (std::size_t v = 0; v < vectors; ++v) {
     const std::size_t i = v * BatchMaterials<F>::kCount;
@@ -196,9 +212,8 @@ template <class F>
   LightLanes<F> lanes;
   for (std::size_t l = 0; l < tables.lights.size(); ++l) {
     view_light(tables.lights[l], batch, materials, vectors, lanes);
-    for (std::size_t v = 0; v < vectors; ++v) {
+    for_each_term(tables.lights[l], lanes, materials, vectors, [&](std::size_t v, const LightTerm<F>& term) {
       const std::size_t i = v * kCount;
-      const LightTerm<F> term = light_term_of(tables.lights[l], lanes, materials, v);
       const Vec3<F> total = term.total();
       const Mask<F> dark = total.x == F(0) && total.y == F(0) && total.z == F(0);
       // Not dark, so it is lit.
@@ -208,7 +223,7 @@ template <class F>
       store(select<F>(dark, F(LightTerms::kDark), state), &out.light[l].state[i]);
       add(diffuse[v], term.diffuse);
       add(specular[v], term.specular);
-    }
+    });
   }
   for (std::size_t v = 0; with_parts && v < vectors; ++v) {
     store_rows<F>(vec(diffuse[v]), out.diffuse, v * kCount);
