@@ -75,6 +75,14 @@ TEST_CASE("command line: zeros before a number do not make it octal") {
   refuse(here, render_small({"-o", "b.png", "--spp", "011"}), "a square number");
 }
 
+TEST_CASE("command line: whole numbers are decimal") {
+  const Workplace here;
+  for (const std::string flag : {"--spp", "--depth", "-j", "--repeat", "--snap-bits", "--tessellate"})
+    for (const std::string number : {"0x10", "1e1", "four"})
+      refuse(here, render_small({"-o", "a.png", flag, number}),
+             flag + ": wants a whole number in decimal; got '" + number + "'");
+}
+
 TEST_CASE("command line: what is written does not take the place of what is read") {
   const Workplace here;
   REQUIRE(here.run(render_small({"-o", "a.png"})).code == 0);
