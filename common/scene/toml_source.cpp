@@ -124,10 +124,12 @@ toml::table parse_toml(std::string_view text, const std::string& path, int befor
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
     const std::string description(error.description());
-    // toml++ does not say why it cannot read 1e400.
+    // toml++ does not say why it cannot read 1e400, nor what it would have read for a word without quotes.
     const bool number = description.find("parsing floating-point") != std::string::npos;
+    const bool word = description.find("could not determine value type") != std::string::npos;
     throw InputError(where(error.source().begin),
-                     "not valid TOML: " + description + (number ? ", expected a finite number" : ""));
+                     "not valid TOML: " + description + (number ? ", expected a finite number" : "") +
+                         (word ? ", expected a text in quotes, a number, true, false or an array" : ""));
   }
 }
 

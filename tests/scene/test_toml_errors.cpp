@@ -29,6 +29,7 @@ TEST_CASE("toml errors: not TOML") {
          {"# \xc3", "1:2", "utf-8"},
          {"gr\u00f6\u00dfe = 1", "1:3", "not valid TOML"},
          {"ambient = 1 \u00b7", "1:13", "not valid TOML"},
+         {"title = red", "1:9", "expected a text in quotes, a number, true, false or an array"},
          {"ambient = 1e400", "1:16", "'1e400' could not be interpreted as a value, expected a finite number"},
          {"ambient = 99999999999999999999", "1:31", "not representable in 64 bits"}});
 }
