@@ -42,4 +42,14 @@ inline std::string_view nearest_name(std::string_view name, std::span<const std:
   return best;
 }
 
+// The nearest name if a slip of the fingers may have meant it: cut short, one edit away, or half of the longer one's
+// bytes at most; else empty. 'depht' is near 'depth', 'cube' is not near 'camera'.
+inline std::string_view near_name(std::string_view name, std::span<const std::string_view> known) {
+  const std::string_view best = nearest_name(name, known);
+  if (name.empty() || best.empty()) return "";
+  if (name.size() > 1 && best.starts_with(name)) return best;
+  const std::string_view a = name.substr(0, 64), b = best.substr(0, 64);
+  return edit_distance(a, b) <= std::max<std::size_t>(1, std::max(a.size(), b.size()) / 2) ? best : "";
+}
+
 }  // namespace sidelight

@@ -45,7 +45,8 @@ std::string in_quotes(std::string_view name) {
 
 std::string expected_one_of(std::span<const std::string_view> names, std::string_view found_name) {
   if (names.empty()) return "one, but there are none";
-  return "one of " + joined(names) + "; did you mean " + in_quotes(nearest_name(found_name, names)) + "?";
+  const std::string_view near = near_name(found_name, names);
+  return "one of " + joined(names) + (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?");
 }
 
 SourceLocation Document::where(const toml::source_region& region) const {

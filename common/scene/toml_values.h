@@ -84,7 +84,7 @@ std::vector<const toml::table*> read_tables(const Value& value);
 
 // `name` in quotes, fit for a message.
 std::string in_quotes(std::string_view name);
-// "one of a, b, c; did you mean 'b'?" (nearest_name.h).
+// "one of a, b, c; did you mean 'b'?" or, with none that is near, "one of a, b, c" (nearest_name.h).
 std::string expected_one_of(std::span<const std::string_view> names, std::string_view found);
 
 // The keys of one table.

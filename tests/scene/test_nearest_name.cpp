@@ -18,3 +18,16 @@ TEST_CASE("nearest_name: fewest edits, first of equals") {
   CHECK(nearest_name("x", {}) == "");
   CHECK(edit_distance("kitten", "sitting") == 3);
 }
+
+TEST_CASE("nearest_name: a name is near that a slip of the fingers may have meant, and no other") {
+  const std::vector<std::string_view> names{"camera", "torus", "ior", "m", "vertical_fov"};
+  CHECK(near_name("tours", names) == "torus");
+  CHECK(near_name("cam", names) == "camera");
+  CHECK(near_name("lens", std::vector<std::string_view>{"less"}) == "less");
+  CHECK(near_name("n", names) == "m");
+  CHECK(near_name("cube", names) == "");  // four edits from "camera"
+  CHECK(near_name("color", names) == "");
+  CHECK(near_name("", names) == "");
+  CHECK(near_name("x", {}) == "");
+  CHECK(near_name(std::string(1000, 'q'), names) == "");
+}

@@ -115,6 +115,10 @@ TEST_CASE("exit code 2: wrong usage") {
   check_usage(render({"--frobnicate"}), "--frobnicate");
   check_usage(render({"--dept", "3"}), "no '--dept'; did you mean '--depth'?");
   check_usage(render({"--dept=3"}), "no '--dept'; did you mean '--depth'?");
+  check_usage(render({"--frobnicate"}), "render: there is no '--frobnicate' (sidelight");
+  check_usage(render({"--threads", "2"}), "render: there is no '--threads' (sidelight");
+  check_usage({"bench", "good.toml", "-o", "o", "--set", "quality=4"}, "no knob 'quality', only renderer, ");
+  check_usage({"help"}, "bench, convert, info\n");
   check_usage({"render", "good.toml", "--outptu", "a.png"}, "did you mean '--output'?");
   check_usage(render({"b.toml", "-Z", "c"}), "not expected: b.toml -Z c");
   check_usage(render({"--spp", "5"}), "square");
