@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "raster/screen.h"
 #include "raster/visible_tile.h"
@@ -49,6 +50,8 @@ struct Kernels {
                      const Corners3* corners, const SmallTriangle* triangles, std::size_t count);
   // Brings TileView::farthest up to date, and returns its least.
   float (*find_farthest)(const TileView& tile);
+  const LargeSurface* (*find_wall)(const SampleBox& box, std::span<const LargeSurface* const> surfaces,
+                                   float nearest);
   void (*draw_large)(const TileView& tile, const LargeSurface& surface);
 };
 

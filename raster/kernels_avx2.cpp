@@ -9,10 +9,12 @@ namespace sidelight::raster {
 static_assert(kLanes<stdx::native_simd<float>> == 8);
 
 const Kernels& kernels_avx2() {
-  static constexpr Kernels kernels{
-      project_all<stdx::native_simd<double>>, set_up_chunk<stdx::native_simd<float>>,
-      draw_small_triangles<stdx::native_simd<float>>, find_farthest_of_blocks<stdx::native_simd<float>>,
-      draw_large_surface<stdx::native_simd<float>>};
+  static constexpr Kernels kernels{project_all<stdx::native_simd<double>>,
+                                   set_up_chunk<stdx::native_simd<float>>,
+                                   draw_small_triangles<stdx::native_simd<float>>,
+                                   find_farthest_of_blocks<stdx::native_simd<float>>,
+                                   find_wall<stdx::native_simd<float>>,
+                                   draw_large_surface<stdx::native_simd<float>>};
   return kernels;
 }
 

@@ -7,8 +7,12 @@
 namespace sidelight::raster {
 
 const Kernels& kernels_scalar() {
-  static constexpr Kernels kernels{project_all<double>, set_up_chunk<float>, draw_small_triangles<float>,
-                                   find_farthest_of_blocks<float>, draw_large_surface<float>};
+  static constexpr Kernels kernels{project_all<double>,
+                                   set_up_chunk<float>,
+                                   draw_small_triangles<float>,
+                                   find_farthest_of_blocks<float>,
+                                   find_wall<float>,
+                                   draw_large_surface<float>};
   return kernels;
 }
 

@@ -83,13 +83,17 @@ void render_fast(const Job& job, Frame& frame) {
     VisibleTile& visible = tiles[static_cast<std::size_t>(thread)];
     ThreadTimes& spent = times[static_cast<std::size_t>(thread)];
     LapClock clock;
+    const SampleBox samples = samples_of(pixels, job.camera.n);
     if (bins.empty(tile)) {
       resolve.shade_background(pixels);
+    } else if (const std::uint32_t wall = bins.wall(samples, tile, counts); wall != kNone) {
+      spent.draw_ms += clock.lap_ms();
+      resolve.shade_wall(pixels, wall, frame, counts);
     } else {
-      const TileView view = visible.clear(scene, job.camera, samples_of(pixels, job.camera.n), counts);
+      const TileView view = visible.clear(scene, job.camera, samples, counts);
       bins.draw(view, tile);
       spent.draw_ms += clock.lap_ms();
-      resolve.shade(pixels, visible.primitives(view), counts);
+      resolve.shade(pixels, visible.primitives(view), frame, counts);
     }
     resolve.write(frame);
     spent.shade_ms += clock.lap_ms();

@@ -33,6 +33,8 @@ TileResolve::TileResolve(const Prepared& prepared, const Camera& camera, const R
 }
 
 void TileResolve::begin(const Rect& pixels) {
+  stream_to_ = nullptr;
+  streamed_.clear();
   pixels_ = pixels;
   color_.resize(samples());
   if (want_t_) t_.resize(samples());
@@ -41,30 +43,74 @@ void TileResolve::begin(const Rect& pixels) {
     for (Colors& part : parts_) part.resize(samples());
 }
 
-void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, VisibilityCounts& counts) {
+void TileResolve::shade(const Rect& pixels, const std::uint32_t* primitives, Frame& frame,
+                        VisibilityCounts& counts) {
   begin(pixels);
+  stream_rows_to(frame);
   primitive_ = primitives;
   shade_samples(false, counts);
+}
+
+void TileResolve::shade_wall(const Rect& pixels, std::uint32_t primitive, Frame& frame,
+                             VisibilityCounts& counts) {
+  begin(pixels);
+  stream_rows_to(frame);
+  show_one(primitive);
+  begin_batches(false);
+  Collected& collected = collected_[static_cast<std::size_t>(find_(primitive).kind)];
+  SurfaceBatch& batch = collected.batch;
+  const int rows_at_once = std::max(1, SurfaceBatch::kCapacity / columns());
+  for (int column = 0; column < columns(); column += SurfaceBatch::kCapacity) {
+    const int width = std::min(SurfaceBatch::kCapacity, columns() - column);
+    batch.begin_rows(camera_.column_factor(n_ * pixels_.x0 + column), width);
+    for (int row = 0; row < rows(); ++row) {
+      collected.runs.push_back({column, row, batch.size, width});
+      batch.add_row(camera_.row_factor(n_ * pixels_.y0 + row), width, primitive);
+      if (static_cast<int>(collected.runs.size()) == rows_at_once) flush(collected, counts);
+    }
+    flush(collected, counts);
+  }
+}
+
+// If each sample is a pixel, and rows of the tile are whole cache lines of the frame's colours.
+void TileResolve::stream_rows_to(Frame& frame) {
+  constexpr int kPixels = 16;  // are three lines
+  const auto odd = [](const glm::vec3& first) { return reinterpret_cast<std::uintptr_t>(&first) % 64; };
+  if (n_ != 1 || pixels_.width() % kPixels != 0 || frame.window.width() % kPixels != 0 ||
+      frame.color.empty() || odd(frame.color[frame.index(pixels_.x0, pixels_.y0)]) != 0)
+    return;
+  stream_to_ = &frame;
+  streamed_.assign(static_cast<std::size_t>(rows()), false);
 }
 
 void TileResolve::shade_background(const Rect& pixels) {
   begin(pixels);
   background_ = std::min(background_, samples());
   if (background_ < samples()) {
-    kept_primitive_.assign(samples(), kNone);
     set_background(0, samples());
     background_ = samples();
   }
+  show_one(kNone);
+}
+
+void TileResolve::show_one(std::uint32_t primitive) {
+  if (one_primitive_ != primitive || kept_primitive_.size() < samples())
+    kept_primitive_.assign(samples(), primitive);
+  one_primitive_ = primitive;
   primitive_ = kept_primitive_.data();
 }
 
-void TileResolve::shade_samples(bool known_t, VisibilityCounts& counts) {
+void TileResolve::begin_batches(bool known_t) {
   background_ = 0;
   for (Collected& of_kind : collected_) {
     of_kind.batch.has_t = known_t;
     of_kind.batch.want_t = want_t_;
     of_kind.batch.prefetched = true;
   }
+}
+
+void TileResolve::shade_samples(bool known_t, VisibilityCounts& counts) {
+  begin_batches(known_t);
   find_runs();
   for (int row = 0; row < rows(); ++row) shade_row(row, known_t, counts);
   for (Collected& of_kind : collected_) flush(of_kind, counts);
@@ -174,7 +220,13 @@ void TileResolve::keep(const SurfaceBatch& batch, const Run& run) {
   const auto put = [&](Colors& layer, const ShadingBatch::Rgb& colors) {
     interleave(colors, from, count, &layer[to]);
   };
-  put(color_, shading_.unshadowed);
+  if (stream_to_ && run.count == columns()) {
+    const std::size_t pixel = stream_to_->index(pixels_.x0, pixels_.y0 + run.row);
+    stream(shading_.unshadowed, from, count, &stream_to_->color[pixel]);
+    streamed_[static_cast<std::size_t>(run.row)] = true;
+  } else {
+    put(color_, shading_.unshadowed);
+  }
   if (want_parts_) {
     put(parts_[0], shading_.ambient_layer);
     put(parts_[1], shading_.diffuse_layer);
@@ -188,7 +240,7 @@ void TileResolve::keep(const SurfaceBatch& batch, const Run& run) {
 
 void TileResolve::write(Frame& frame) const {
   const TilePixels tile(pixels_, n_);
-  tile.write_means(color_, frame, frame.color);
+  tile.write_means(color_, frame, frame.color, streamed_);
   for (std::size_t l = 0; l < parts_.size(); ++l) tile.write_means(parts_[l], frame, frame.rgb[l]);
   tile.write_surfaces([&](std::size_t sample) { return primitive_[sample]; }, t_, normal_, prepared_.scene,
                       camera_.depth_scale(), frame);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "common/model/surface_batch.h"
@@ -20,8 +21,10 @@ class TileResolve {
   TileResolve(const Prepared& prepared, const Camera& camera, const RenderOptions& options);
 
   // The samples of these pixels, of which the z-buffer keeps these primitives (row by row on the lattice; kNone:
-  // background). They must stay until the tile is written.
-  void shade(const Rect& pixels, const std::uint32_t* primitives, VisibilityCounts& counts);
+  // background). They must stay until the tile is written. Rows of colours may be so at once, past the caches.
+  void shade(const Rect& pixels, const std::uint32_t* primitives, Frame& frame, VisibilityCounts& counts);
+  // The same of pixels that all show one primitive.
+  void shade_wall(const Rect& pixels, std::uint32_t primitive, Frame& frame, VisibilityCounts& counts);
   // The same of pixels that show nothing.
   void shade_background(const Rect& pixels);
   // The same of what a tile of hits holds: a DepthTile, or one with faults, whose depths need not be those of visibility.h.
@@ -39,6 +42,7 @@ class TileResolve {
         tests_[i] = tile.tests(X, Y);
       }
     primitive_ = kept_primitive_.data();
+    one_primitive_.reset();
     shade_samples(true, counts);
   }
 
@@ -70,6 +74,9 @@ class TileResolve {
            static_cast<std::size_t>(column);
   }
   void begin(const Rect& pixels);
+  void stream_rows_to(Frame& frame);
+  void show_one(std::uint32_t primitive);
+  void begin_batches(bool known_t);
   void shade_samples(bool known_t, VisibilityCounts& counts);
   void find_runs();
   void prefetch_run(std::size_t run);
@@ -85,9 +92,13 @@ class TileResolve {
   bool want_parts_, want_normal_, want_t_;
   bool prefetch_;
   Rect pixels_;
+  // Where the colours of a row go if they are found all at once, and not to color_; of each row, whether they were.
+  Frame* stream_to_ = nullptr;
+  std::vector<bool> streamed_;
   // Of each sample, row by row on the lattice. What is not wanted is empty, or holds what came before.
   const std::uint32_t* primitive_ = nullptr;
   std::vector<std::uint32_t> kept_primitive_, tests_;
+  std::optional<std::uint32_t> one_primitive_;  // all of kept_primitive_, where it is
   // Of runs_ runs of one primitive in a row, where they start, and the end of the last; of each sample its run.
   std::vector<std::uint32_t> run_start_, run_of_;
   std::size_t runs_ = 0;

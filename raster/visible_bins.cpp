@@ -229,20 +229,39 @@ bool VisibleBins::empty(int tile) const {
   });
 }
 
-// Large surfaces first, the near ones before the far: they hide whole blocks. Back faces last: where front faces of
-// closed meshes fill a block, they are hidden, and where they fill the tile most often all at once.
-void VisibleBins::draw(const TileView& view, int tile) const {
-  const auto t = static_cast<std::size_t>(tile);
+// Those of a tile, the near ones before the far.
+std::vector<const LargeSurface*> VisibleBins::large_surfaces(int tile) const {
   std::vector<const LargeSurface*> large;
   for (const ThreadBins& bins : threads_)
-    for (const std::uint32_t number : bins.tiles[t].large) large.push_back(&bins.large[number]);
+    for (const std::uint32_t number : bins.tiles[static_cast<std::size_t>(tile)].large)
+      large.push_back(&bins.large[number]);
   std::sort(large.begin(), large.end(), [](const LargeSurface* a, const LargeSurface* b) {
     return a->nearest > b->nearest || (a->nearest == b->nearest && a->primitive < b->primitive);
   });
+  return large;
+}
+
+std::uint32_t VisibleBins::wall(const SampleBox& samples, int tile, VisibilityCounts& counts) const {
+  float nearest = 0;
+  for (const ThreadBins& bins : threads_) {
+    const TileBin& bin = bins.tiles[static_cast<std::size_t>(tile)];
+    if (!bin.front.empty() || !bin.fragments.empty() || !bin.spheres.empty()) return kNone;
+    nearest = std::max(nearest, bin.nearest_back);
+  }
+  const LargeSurface* const wall = kernels_.find_wall(samples, large_surfaces(tile), nearest);
+  if (!wall) return kNone;
+  counts.fragments += area(samples);
+  return wall->primitive;
+}
+
+// Large surfaces first: they hide whole blocks. Back faces last: where front faces of closed meshes fill a block, they are
+// hidden, and where they fill the tile most often all at once.
+void VisibleBins::draw(const TileView& view, int tile) const {
+  const auto t = static_cast<std::size_t>(tile);
   for (const ThreadBins& bins : threads_)
     for (const std::uint32_t number : bins.tiles[t].spheres)
       draw_sphere(view, bins.spheres[number].primitive, bins.spheres[number].box);
-  for (const LargeSurface* surface : large) kernels_.draw_large(view, *surface);
+  for (const LargeSurface* surface : large_surfaces(tile)) kernels_.draw_large(view, *surface);
   const auto draw_small = [&](const std::vector<SmallTriangle>& small) {
     kernels_.draw_small(view, space_, vertices_.data(), corners_, small.data(), small.size());
   };

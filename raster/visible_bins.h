@@ -19,6 +19,9 @@ class VisibleBins {
 
   // Whether nothing may be seen in a tile.
   bool empty(int tile) const;
+  // Of a tile that a large surface surely fills, before all else in its bins: that one. All its samples show it, and none
+  // has to be drawn. kNone of other tiles.
+  std::uint32_t wall(const SampleBox& samples, int tile, VisibilityCounts& counts) const;
   // Draws what the bins of a tile hold, all threads' alike.
   void draw(const TileView& view, int tile) const;
 
@@ -39,6 +42,7 @@ class VisibleBins {
   void set_up_in_double(std::uint32_t triangle, std::uint32_t primitive, const SampleBox& box, bool small,
                         ThreadBins& bins) const;
   void set_up_other(std::uint32_t primitive, ThreadBins& bins) const;
+  std::vector<const LargeSurface*> large_surfaces(int tile) const;
   void collect_fragments(const TinyFragments& tiny, std::uint32_t first_primitive, ThreadBins& bins) const;
 
   // put(bin) for the bin of each tile that a box touches.

@@ -2,6 +2,7 @@
 // Large surfaces into a tile's z-buffer, block by block.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -35,6 +36,23 @@ Anchored anchored(const Affine& affine, double error, int X, int Y,
   return a;
 }
 
+// Over all samples of a box.
+template <class F>
+Anchored anchored(const Affine& affine, double error, const SampleBox& box) {
+  return anchored<F>(affine, error, box.x0, box.y0, static_cast<float>(box.x1 - 1 - box.x0),
+                     static_cast<float>(box.y1 - 1 - box.y0));
+}
+
+template <class F>
+SampleBox both(const SampleBox& a, const SampleBox& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+template <class F>
+Anchored depth_in(const LargeSurface& surface, const SampleBox& box) {
+  return anchored<F>(surface.depth.w, surface.depth.error, box);
+}
+
 template <class F>
 bool has_sure_depth(const LargeSurface& surface, const Anchored& w) {
   return surface.depth.sure && lane_abs(w.high) < 1e30f && lane_abs(w.low) < 1e30f;
@@ -42,6 +60,14 @@ bool has_sure_depth(const LargeSurface& surface, const Anchored& w) {
 template <class F>
 bool surely_behind(const LargeSurface& surface, const Anchored& w, float farthest) {
   return has_sure_depth<F>(surface, w) && w.high * kSurely < farthest;
+}
+
+// Whether no sample of a box is inside of all edges.
+template <class F>
+bool surely_beside(const LargeSurface& surface, const SampleBox& box) {
+  return surface.bounded && std::ranges::any_of(surface.edge, [&](const EdgeSheet& each) {
+           return anchored<F>(each.value, each.error, box).high < 0;
+         });
 }
 
 // Edges of a surface that some samples may not be inside of.
@@ -115,31 +141,54 @@ void draw_block(const TileView& tile, const LargeSurface& surface, const OpenEdg
   farthest = least<F>(least_held);
 }
 
+// Whether all samples of a box surely meet the surface, w being its depth there.
+template <class F>
+bool surely_covers(const LargeSurface& surface, const SampleBox& box, const Anchored& w) {
+  return has_sure_depth<F>(surface, w) && w.low > 0 &&
+         (!surface.bounded || std::ranges::all_of(surface.edge, [&](const EdgeSheet& each) {
+           return anchored<F>(each.value, each.error, box).low > 0;
+         }));
+}
+
+// Of surfaces, near before far, the one that all samples of a box surely meet, surely before the others and before whatever
+// is nowhere nearer than `nearest`, by w; null if there is none. (Its least w is no float that was kept, so it is nearer
+// to 1/t than kSurely asks.)
+template <class F>
+[[gnu::flatten]] const LargeSurface* find_wall(const SampleBox& box,
+                                               std::span<const LargeSurface* const> surfaces, float nearest) {
+  const LargeSurface* wall = nullptr;
+  float farthest = 0;  // the wall's least w
+  for (const LargeSurface* each : surfaces) {
+    const Anchored w = depth_in<F>(*each, both<F>(each->box, box));
+    if (wall && surely_behind<F>(*each, w, farthest)) continue;
+    if (surely_beside<F>(*each, box)) continue;
+    if (wall || !surely_covers<F>(*each, box, w) || !(nearest * kSurely < w.low)) return nullptr;
+    wall = each;
+    farthest = w.low;
+  }
+  return wall;
+}
+
 template <class F>
 [[gnu::flatten]] void draw_large_surface(const TileView& tile, const LargeSurface& surface) {
-  const int x0 = std::max(surface.box.x0, tile.box.x0), x1 = std::min(surface.box.x1, tile.box.x1);
-  const int y0 = std::max(surface.box.y0, tile.box.y0), y1 = std::min(surface.box.y1, tile.box.y1);
-  if (x0 >= x1) return;
+  const SampleBox box = both<F>(surface.box, tile.box);
+  if (box.empty()) return;
   const auto for_each_block = [&](const auto& visit) {
-    for (int row = (y0 - tile.box.y0) / TileView::kBlockRows; tile.box.y0 + row * TileView::kBlockRows < y1;
-         ++row)
-      for (int column = (x0 - tile.box.x0) / TileView::kBlockColumns;
-           tile.box.x0 + column * TileView::kBlockColumns < x1; ++column)
+    for (int row = (box.y0 - tile.box.y0) / TileView::kBlockRows;
+         tile.box.y0 + row * TileView::kBlockRows < box.y1; ++row)
+      for (int column = (box.x0 - tile.box.x0) / TileView::kBlockColumns;
+           tile.box.x0 + column * TileView::kBlockColumns < box.x1; ++column)
         visit(tile.box.x0 + column * TileView::kBlockColumns, tile.box.y0 + row * TileView::kBlockRows,
               tile.farthest[row * tile.block_columns + column]);
   };
-  const auto columns = static_cast<float>(x1 - 1 - x0), rows = static_cast<float>(y1 - 1 - y0);
   // Layers behind a wall are dropped a whole tile at a time.
   float farthest = std::numeric_limits<float>::infinity();
   for_each_block([&](int, int, float of_block) { farthest = lane_min(farthest, of_block); });
-  if (farthest > 0) {
-    const Anchored w = anchored<F>(surface.depth.w, surface.depth.error, x0, y0, columns, rows);
-    if (surely_behind<F>(surface, w, farthest)) return;
-  }
+  if (farthest > 0 && surely_behind<F>(surface, depth_in<F>(surface, box), farthest)) return;
   OpenEdges open;
   if (surface.bounded)
     for (const EdgeSheet& each : surface.edge) {
-      const Anchored e = anchored<F>(each.value, each.error, x0, y0, columns, rows);
+      const Anchored e = anchored<F>(each.value, each.error, box);
       if (e.high < 0) return;
       if (!(e.low > 0)) open.edge[open.size++] = &each;
     }

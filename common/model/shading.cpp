@@ -115,14 +115,30 @@ void ShadingBatch::set(std::size_t i, const ShadingPoint<float>& point, std::uin
   material[i] = material_number;
 }
 
+namespace {
+// Of four entries, three times four floats.
+std::array<FourFloats, 3> four_pixels(const ShadingBatch::Rgb& from, std::size_t first) {
+  const auto four = [&](std::size_t c) { return load_four<FourFloats>(&from[c][first]); };
+  return interleaved(four(0), four(1), four(2));
+}
+}  // namespace
+
 void interleave(const ShadingBatch::Rgb& from, std::size_t first, std::size_t count, glm::vec3* to) {
   std::size_t i = 0;
   for (; i + 4 <= count; i += 4) {
-    const auto four = [&](std::size_t c) { return load_four<FourFloats>(&from[c][first + i]); };
-    const auto parts = interleaved(four(0), four(1), four(2));
+    const auto parts = four_pixels(from, first + i);
     std::memcpy(&to[i].x, parts.data(), sizeof parts);
   }
   for (; i < count; ++i) to[i] = get(from, first + i);
+}
+
+void stream(const ShadingBatch::Rgb& from, std::size_t first, std::size_t count, glm::vec3* to) {
+  float* channel = &to->x;
+  for (std::size_t i = 0; i < count; i += 4)
+    for (const FourFloats& part : four_pixels(from, first + i)) {
+      stream_four(FourFloats{} + part, channel);
+      channel += 4;
+    }
 }
 
 void shade(Isa isa, const ShadingTables& tables, ShadingBatch& batch, bool with_parts) {

@@ -74,6 +74,8 @@ inline glm::vec3 get(const ShadingBatch::Rgb& from, std::size_t i) {
 }
 // Entries [first, first + count) as a picture has them, one after the other.
 void interleave(const ShadingBatch::Rgb& from, std::size_t first, std::size_t count, glm::vec3* to);
+// The same past the caches (stream_four() in four.h), zeros without a sign: `to` is a multiple of 16 bytes, `count` of 4.
+void stream(const ShadingBatch::Rgb& from, std::size_t first, std::size_t count, glm::vec3* to);
 
 // Fills the results of entries [0, size); the three parts of R if `with_parts`. The same bytes for every isa. `isa` must
 // be one the machine has.

@@ -58,6 +58,20 @@ struct SurfaceBatch {
       primitive[static_cast<std::size_t>(runs++)] = primitive_of(r);
     size += count;
   }
+  // For rows one below the other that show one primitive: sets what all of them share, which stays from batch to batch.
+  // As many of them as there is room for may then be added, and nothing else.
+  void begin_rows(double first_column, int width) {
+    for (int from = 0; from + width <= kCapacity; from += width)
+      for (int k = 0; k < width; ++k)
+        column[static_cast<std::size_t>(from + k)] = first_column + kTwice[static_cast<std::size_t>(k)];
+    run.fill(0);
+  }
+  void add_row(double row_factor, int width, std::uint32_t of_primitive) {
+    std::fill_n(&row[static_cast<std::size_t>(size)], static_cast<std::size_t>(width), row_factor);
+    size += width;
+    primitive[0] = of_primitive;
+    runs = 1;
+  }
   // An entry that is a run of its own.
   void add(std::uint32_t of_primitive) {
     primitive[static_cast<std::size_t>(runs)] = of_primitive;

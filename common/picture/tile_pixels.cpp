@@ -24,11 +24,13 @@ void write_row(const float* from, float* to, std::size_t size) {
 
 }  // namespace
 
-void TilePixels::write_means(Colors samples, const Frame& frame, KeptArray<glm::vec3>& pixels) const {
+void TilePixels::write_means(Colors samples, const Frame& frame, KeptArray<glm::vec3>& pixels,
+                             const std::vector<bool>& streamed) const {
   if (pixels.empty()) return;
   if (n_ == 1) {
     for (int y = pixels_.y0; y < pixels_.y1; ++y)
-      write_row(&samples[row(y) * columns()].x, &pixels[frame.index(pixels_.x0, y)].x, 3 * width());
+      if (streamed.empty() || !streamed[row(y)])
+        write_row(&samples[row(y) * columns()].x, &pixels[frame.index(pixels_.x0, y)].x, 3 * width());
     return end_streams();
   }
   for_each_pixel(frame, [&](std::size_t pixel, std::size_t first) {

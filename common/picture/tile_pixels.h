@@ -33,8 +33,10 @@ class TilePixels {
       for (std::size_t i = 0; i < n_; ++i) visit(first + i);
   }
 
-  // Their means; nothing where the frame has no such pixels.
-  void write_means(Colors samples, const Frame& frame, KeptArray<glm::vec3>& pixels) const;
+  // Their means; nothing where the frame has no such pixels. Of one sample a pixel, without the rows that `streamed` says
+  // have been written, past the caches; empty: none.
+  void write_means(Colors samples, const Frame& frame, KeptArray<glm::vec3>& pixels,
+                   const std::vector<bool>& streamed = {}) const;
 
   // What is kept of the sample in the middle, (n/2, n/2), and where the frame asks for it of all: surfaces and depths.
   // primitive_of(sample) is kNone on background, where t is 0. t and normal may be empty where nothing asks for them.

@@ -166,6 +166,43 @@ TEST_CASE("visible: long slivers and huge triangles across one another") {
   }
 }
 
+// Tiles of 64 x 64 that one surface fills need no drawing, but where anything else may be before it.
+TEST_CASE("visible: walls that fill tiles, what is before and behind them, and where they meet") {
+  Random random(77);
+  CameraSettings settings;
+  settings.view_height = 0.8;
+  for (int round = 0; round < 24; ++round) {
+    CAPTURE(round);
+    settings.eye = random.in_box(1);
+    settings.look_at = settings.eye + random.direction();
+    const Camera camera = make_camera(settings, 256, 192, round % 3 == 2 ? 2 : 1);
+    const glm::dvec3 right = glm::normalize(camera.right), up = glm::normalize(camera.up);
+    const auto at = [&](double distance) { return camera.eye + distance * camera.forward; };
+    // Nearly across the view, the first two much like each other; some edges are seen, of halves too.
+    Scene scene = empty_scene();
+    scene.ambient = glm::dvec3(0.2);
+    scene.lights = {lamp(camera.eye + random.in_box(1), 0.8)};
+    for (int wall = 0; wall < 4; ++wall) {
+      const bool alike = wall < 2;
+      const glm::dvec3 tilt = (alike ? 1e-4 : 0.3) * random.in_box(1);
+      const double size = alike ? 4 : random.uniform(0.5, 4);
+      const glm::dvec3 x = size * (right + tilt), y = size * (up + 0.5 * tilt);
+      const glm::dvec3 middle = at(alike ? 2 : random.uniform(1.5, 4)) + random.in_box(0.5);
+      add_mesh(
+          scene,
+          mesh_of({middle - x - y, middle + x - y, middle + x + y, middle - x + y}, {{0, 1, 2}, {0, 2, 3}}),
+          {}, {});
+    }
+    // A few small and tiny ones, of any side, before, at and behind them; most tiles have none.
+    for (const double size : {0.05, 0.002})
+      if (round % 4 != 0) add_mesh(scene, shards(random, camera, 3, random.uniform(0.5, 3), size), {}, {});
+    if (round % 5 == 0) add_sphere(scene, {at(random.uniform(0.5, 3)) + 0.3 * right, 0.05, 0}, {});
+    if (round % 2 == 0)
+      add_plane(scene, {at(random.uniform(1, 3)), camera.forward + 0.2 * random.in_box(1), 0}, {});
+    judged(scene, camera);
+  }
+}
+
 TEST_CASE("visible: a lattice of 16384 columns, of which a corner is drawn") {
   Random random(76);
   CameraSettings settings;
