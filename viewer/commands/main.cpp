@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -63,13 +64,15 @@ std::vector<CLI::Option*> options_of(CLI::App& verb) {
   return out;
 }
 
-// A shell's unset variable must not pass for an option that was not given.
+// A shell's unset variable must not pass for an option that was not given. Comes before every other check of an option's
+// value, as the transform() that was added last.
 void refuse_empty_values(CLI::App& app) {
-  const auto wants_value = [](const std::string& value) {
-    return value.empty() ? std::string("wants a value; got ''") : std::string();
+  const std::function<std::string(std::string)> wants_value = [](std::string value) {
+    if (value.empty()) throw CLI::ValidationError("wants a value; got ''");
+    return value;
   };
   for (CLI::App* verb : app.get_subcommands({}))
-    for (CLI::Option* option : options_of(*verb)) option->check(wants_value);
+    for (CLI::Option* option : options_of(*verb)) option->transform(wants_value);
 }
 
 // Begun with "; "; empty where no name is near. The dashes of a flag count for no likeness.
@@ -108,6 +111,11 @@ std::string unexpected(CLI::App& verb) {
     for (const std::string& each : option->get_lnames()) known.push_back(each);
   return fmt::format("{}: there is no '{}'{}", verb.get_name(), name,
                      did_you_mean(std::string_view(name).substr(2), known, "--"));
+}
+
+// CLI11 converts values to numbers only, and does not say so.
+std::string in_words(const CLI::ParseError& error) {
+  return error.what() + std::string(error.get_name() == "ConversionError" ? ", expected a number" : "");
 }
 
 // What a signal made fail failed because of it.
@@ -151,7 +159,7 @@ int run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return all_written(app.exit(error));  // --help, --version
     const std::vector<CLI::App*> verb = app.get_subcommands();
     const bool extra = !verb.empty() && !left_over(*verb[0]).empty();
-    const std::string what = extra ? unexpected(*verb[0]) : error.what();
+    const std::string what = extra ? unexpected(*verb[0]) : in_words(error);
     return complain(kUsage, fmt::format("{} (sidelight {}--help shows how)", printable(what, 300),
                                         verb.empty() ? "" : verb[0]->get_name() + " "));
   } catch (const UsageError& error) {

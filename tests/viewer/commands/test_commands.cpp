@@ -115,6 +115,8 @@ TEST_CASE("exit code 2: wrong usage") {
   check_usage(render({"--frobnicate"}), "--frobnicate");
   check_usage(render({"--dept", "3"}), "no '--dept'; did you mean '--depth'?");
   check_usage(render({"--dept=3"}), "no '--dept'; did you mean '--depth'?");
+  check_usage({"diff", "a.exr", "a.exr", "--fail", "1/255"},
+              "--fail = 1/255, expected a number (sidelight diff");
   check_usage(render({"--frobnicate"}), "render: there is no '--frobnicate' (sidelight");
   check_usage(render({"--threads", "2"}), "render: there is no '--threads' (sidelight");
   check_usage({"bench", "good.toml", "-o", "o", "--set", "quality=4"}, "no knob 'quality', only renderer, ");
@@ -160,8 +162,8 @@ TEST_CASE("exit code 2: layers and formats that do not fit") {
 
 TEST_CASE("exit code 2: an empty value, as of a shell's unset variable, is not taken for none") {
   const Arguments render = Arguments{"render"} + kSmall + Arguments{"-o", "a.png"};
-  for (const char* flag : {"--stats", "-r", "--crop", "--layers", "--isa"})
-    check_usage(render + Arguments{flag, ""}, "wants a value");
+  for (const char* flag : {"--stats", "-r", "--crop", "--layers", "--isa", "--depth", "--spp", "--renderer"})
+    check_usage(render + Arguments{flag, ""}, "wants a value; got ''");
   check_usage(render + Arguments{"--stats="}, "--stats");
   check_usage({"explain", "good.toml", "--pixel", "1,1", "--json", ""}, "--json");
   check_usage({"explain", "good.toml", "--pixel", "1,1", "--sample", ""}, "--sample");
