@@ -50,6 +50,7 @@ struct Kernels {
                      const Corners3* corners, const SmallTriangle* triangles, std::size_t count);
   // Brings TileView::farthest up to date, and returns its least.
   float (*find_farthest)(const TileView& tile);
+  // The surface that fills a box before all others, if one surely does (visible_large.h).
   const LargeSurface* (*find_wall)(const SampleBox& box, std::span<const LargeSurface* const> surfaces,
                                    float nearest);
   void (*draw_large)(const TileView& tile, const LargeSurface& surface);
