@@ -59,14 +59,13 @@ void TileResolve::shade_wall(const Rect& pixels, std::uint32_t primitive, Frame&
   begin_batches(false);
   Collected& collected = collected_[static_cast<std::size_t>(find_(primitive).kind)];
   SurfaceBatch& batch = collected.batch;
-  const int rows_at_once = std::max(1, SurfaceBatch::kCapacity / columns());
   for (int column = 0; column < columns(); column += SurfaceBatch::kCapacity) {
     const int width = std::min(SurfaceBatch::kCapacity, columns() - column);
     batch.begin_rows(camera_.column_factor(n_ * pixels_.x0 + column), width);
     for (int row = 0; row < rows(); ++row) {
       collected.runs.push_back({column, row, batch.size, width});
       batch.add_row(camera_.row_factor(n_ * pixels_.y0 + row), width, primitive);
-      if (static_cast<int>(collected.runs.size()) == rows_at_once) flush(collected, counts);
+      if (batch.room() < width) flush(collected, counts);
     }
     flush(collected, counts);
   }

@@ -20,7 +20,7 @@ class VisibleBins {
   // Whether nothing may be seen in a tile.
   bool empty(int tile) const;
   // Of a tile that a large surface surely fills, before all else in its bins: that one. All its samples show it, and none
-  // has to be drawn. kNone of other tiles.
+  // has to be drawn; they count as fragments all the same. kNone of other tiles.
   std::uint32_t wall(const SampleBox& samples, int tile, VisibilityCounts& counts) const;
   // Draws what the bins of a tile hold, all threads' alike.
   void draw(const TileView& view, int tile) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Large surfaces into a tile's z-buffer, block by block.
+// Large surfaces into a tile's z-buffer, block by block; and which of them fill a tile, so that it needs none.
 #pragma once
 
 #include <algorithm>
@@ -181,7 +181,7 @@ template <class F>
         visit(tile.box.x0 + column * TileView::kBlockColumns, tile.box.y0 + row * TileView::kBlockRows,
               tile.farthest[row * tile.block_columns + column]);
   };
-  // Layers behind a wall are dropped a whole tile at a time.
+  // What lies behind all that the tile holds is dropped at once.
   float farthest = std::numeric_limits<float>::infinity();
   for_each_block([&](int, int, float of_block) { farthest = lane_min(farthest, of_block); });
   if (farthest > 0 && surely_behind<F>(surface, depth_in<F>(surface, box), farthest)) return;
