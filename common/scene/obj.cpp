@@ -205,7 +205,7 @@ class ObjReader {
     std::vector<std::string_view> known;
     for (const Material& material : library_) known.push_back(material.name);
     if (known.empty()) return "and no mtllib before this line defines any";
-    return "the nearest is '" + printable(std::string(nearest_name(name, known)), 60) + "'";
+    return "the nearest is '" + printable(std::string(nearest_name(name, known)), kNameInMessage) + "'";
   }
 
   // The current material's number in the result, which it enters with its first face.

@@ -11,8 +11,6 @@
 namespace sidelight::scene_file {
 namespace {
 
-constexpr std::size_t kNameInMessage = 60;  // bytes of a name that a message shows
-
 // As TOML tells it from a whole number: 2.0, not 2.
 std::string float_text(double x) {
   const std::string text = number_text(x);
@@ -45,8 +43,7 @@ std::string in_quotes(std::string_view name) {
 
 std::string expected_one_of(std::span<const std::string_view> names, std::string_view found_name) {
   if (names.empty()) return "one, but there are none";
-  const std::string_view near = near_name(found_name, names);
-  return "one of " + joined(names) + (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?");
+  return "one of " + joined(names) + did_you_mean(found_name, names);
 }
 
 SourceLocation Document::where(const toml::source_region& region) const {

@@ -30,4 +30,7 @@ TEST_CASE("nearest_name: a name is near that a slip of the fingers may have mean
   CHECK(near_name("", names) == "");
   CHECK(near_name("x", {}) == "");
   CHECK(near_name(std::string(1000, 'q'), names) == "");
+  CHECK(did_you_mean("cam", names) == "; did you mean 'camera'?");
+  CHECK(did_you_mean("cam", names, "--") == "; did you mean '--camera'?");
+  CHECK(did_you_mean("cube", names) == "");
 }

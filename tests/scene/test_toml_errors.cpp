@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mistakes in a scene file (in its objects: test_toml_object_errors.cpp): its line and column, and what the message says. Each row is a snippet from
-// line 1 on; the camera and the material "m" follow it (toml_text.h), unless the row is about the camera.
+// Mistakes in a scene file (those of its objects: test_toml_object_errors.cpp): where, and what the message says. A row is a
+// snippet from line 1 on; the camera and the material "m" follow it (toml_text.h), unless it is about the camera.
 #include <doctest/doctest.h>
 
 #include <algorithm>

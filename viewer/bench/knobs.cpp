@@ -152,12 +152,9 @@ Choice parse_choice(const std::string& text) {
   std::vector<std::string_view> names;
   for (const Knob& knob : kKnobs) names.push_back(knob.name);
   const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end()) {
-    const std::string_view near = near_name(name, names);
-    const std::string meant = near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
+  if (at == names.end())
     throw UsageError(fmt::format("--set: there is no knob '{}', only {}{}", printable(name),
-                                 fmt::join(names, ", "), meant));
-  }
+                                 fmt::join(names, ", "), did_you_mean(name, names)));
   Choice choice{static_cast<std::size_t>(at - names.begin()),
                 split(std::string_view(text).substr(equals + 1))};
   const Knob& knob = kKnobs[choice.knob];

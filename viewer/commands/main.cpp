@@ -75,21 +75,13 @@ void refuse_empty_values(CLI::App& app) {
     for (CLI::Option* option : options_of(*verb)) option->transform(wants_value);
 }
 
-// Begun with "; "; empty where no name is near. The dashes of a flag count for no likeness.
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& known,
-                         std::string_view dashes) {
-  const std::vector<std::string_view> views(known.begin(), known.end());
-  const std::string_view near = near_name(name, views);
-  return near.empty() ? "" : fmt::format("; did you mean '{}{}'?", dashes, near);
-}
-
 // CLI11 would only say that a verb is wanted.
 void check_verb(const CLI::App& app, const std::string& given) {
-  std::vector<std::string> verbs;
+  std::vector<std::string_view> verbs;
   for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
   if (given.starts_with('-') || std::ranges::find(verbs, given) != verbs.end()) return;
   throw UsageError(fmt::format("there is no verb '{}', only {}{}", given, fmt::join(verbs, ", "),
-                               did_you_mean(given, verbs, "")));
+                               did_you_mean(given, verbs)));
 }
 
 // What a verb could not make sense of. CLI11 counts the mark "--", after which nothing is a flag, among it.
@@ -106,9 +98,9 @@ std::string unexpected(CLI::App& verb) {
       std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("--"); });
   if (flag == words.end()) return fmt::format("{}: not expected: {}", verb.get_name(), fmt::join(words, " "));
   const std::string name = flag->substr(0, flag->find('='));
-  std::vector<std::string> known;
+  std::vector<std::string_view> known;
   for (const CLI::Option* option : options_of(verb))
-    for (const std::string& each : option->get_lnames()) known.push_back(each);
+    known.insert(known.end(), option->get_lnames().begin(), option->get_lnames().end());
   return fmt::format("{}: there is no '{}'{}", verb.get_name(), name,
                      did_you_mean(std::string_view(name).substr(2), known, "--"));
 }

@@ -112,11 +112,9 @@ TEST_CASE("exit code 2: wrong usage") {
   check_usage({"render", "good.toml"}, "--output");
   check_usage({"render", "-o", "a.png"}, "SCENE");
   check_usage({"compare", "good.toml"}, "--output");
-  check_usage(render({"--frobnicate"}), "--frobnicate");
   check_usage(render({"--dept", "3"}), "no '--dept'; did you mean '--depth'?");
   check_usage(render({"--dept=3"}), "no '--dept'; did you mean '--depth'?");
-  check_usage({"diff", "a.exr", "a.exr", "--fail", "1/255"},
-              "--fail = 1/255, expected a number (sidelight diff");
+  check_usage({"diff", "a.exr", "a.exr", "--fail", "1/255"}, "--fail = 1/255, expected a number (");
   check_usage(render({"--frobnicate"}), "render: there is no '--frobnicate' (sidelight");
   check_usage(render({"--threads", "2"}), "render: there is no '--threads' (sidelight");
   check_usage({"bench", "good.toml", "-o", "o", "--set", "quality=4"}, "no knob 'quality', only renderer, ");
